@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ..errors import ConfigError
 from ..formats.detect import read_other_format
 from ..model.elements import Robot
 from ..model.load import make_robot
@@ -21,6 +22,7 @@ def load(
     packages: Mapping[str, str | Path] | None = None,
     package_paths: Iterable[str | Path] = (),
     gltf_up: GltfUp = "y",
+    name: str = "",
 ) -> Robot:
     """Read a robot from a file: URDF, xacro, SDF, MJCF or USD, by its first bytes.
 
@@ -36,6 +38,8 @@ def load(
         package_paths: Folders that contain ROS packages.
         gltf_up: Up axis of glTF meshes: ``"y"`` as in their standard, rotated to Z as in RViz;
             ``"z"`` for files made for readers that keep the axes of the file.
+        name: Model of an SDF file, or articulation of a USD stage, that has several; empty for
+            that with most joints or bodies.
 
     Raises:
         ConfigError: An option has a value that is not allowed.
@@ -46,8 +50,10 @@ def load(
     paths = check_places(packages, package_paths, gltf_up=gltf_up)
     file = read_file(path)
     finder = Packages(None if file.path == STDIN else file.path, named=packages or {}, paths=paths)
-    robot = read_other_format(file, finder)
+    robot = read_other_format(file, finder, name)
     if robot is None:
+        if name:
+            raise ConfigError("name is for SDF and USD files; a URDF has one robot", path=path)
         return make_robot(
             read_description(
                 path, args, packages=packages, package_paths=paths, file=file, gltf_up=gltf_up

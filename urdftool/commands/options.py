@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -20,6 +20,12 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 ASSIGN = ":="
 
+CHOSEN = "-r"
+"""Key, among the xacro arguments, of the name of one of several robots in a file."""
+
+OF_SEVERAL = (".sdf", ".world", ".usd", ".usda", ".usdc", ".usdz")
+"""Suffixes of files of several robots, one of which ``-r NAME`` after the file chooses."""
+
 
 def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
     """Separate paths from xacro arguments, which are written ``name:=value``.
@@ -30,7 +36,7 @@ def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
         UsageError: An argument has no name, or a missing file looks like ``name=value``.
         UrdftoolError: A robot by name is not found.
     """
-    words = tuple(map(_find_named, words))
+    words = tuple(_find_robots(words))
     paths = [word for word in words if ASSIGN not in word]
     for word in paths:
         name, equals, value = word.partition("=")
@@ -57,7 +63,7 @@ def split_robots(words: tuple[str, ...]) -> list[tuple[str, dict[str, str]]]:
         UrdftoolError: A robot by name is not found.
     """
     sides: list[list[str]] = []
-    for word in map(_find_named, words):
+    for word in _find_robots(words):
         if ASSIGN not in word:
             sides.append([word])
         elif sides:
@@ -80,15 +86,33 @@ def add_robot_argument(function: F) -> F:
 
 
 def add_name_option(function: F) -> F:
-    """Add ``-r NAME``, a robot in place of a path; it requires a :class:`GroupedCommand`."""
+    """Add ``-r NAME``, a robot in place of a path, or one of those in the file before it.
+
+    It requires a :class:`GroupedCommand`.
+    """
     return click.option(
         "-r",
         "named",
         metavar="NAME",
         expose_value=False,
         help="Robot of the Python package robot_descriptions or mujoco-menagerie, in place of a "
-        "file.",
+        "file; after an SDF or USD file, one of its models.",
     )(function)
+
+
+def _find_robots(words: Iterable[str]) -> Iterator[str]:
+    """Yield words with the path of each robot by name; or an argument after a file of several."""
+    file = ""
+    for word in words:
+        if not word.startswith(NAMED):
+            file = file if ASSIGN in word else word
+            yield word
+        elif file.endswith(OF_SEVERAL) and os.path.isfile(file):
+            yield f"{CHOSEN}{ASSIGN}{word.removeprefix(NAMED)}"
+            file = ""
+        else:
+            file = ""
+            yield _find_named(word)
 
 
 def _find_named(word: str) -> str:

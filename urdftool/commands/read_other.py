@@ -81,8 +81,11 @@ def read_other(
         UrdftoolError: The file cannot be read.
     """
     from ..formats.common.loss_report import format_lines
+    from .options import CHOSEN
 
-    reading = found.read(file.path, file=file, packages=packages, workspace=packages.workspace)
+    arguments = dict(arguments)
+    places = {"packages": packages, "workspace": packages.workspace}
+    reading = found.read(file.path, file=file, name=arguments.pop(CHOSEN, ""), **places)
     for line in () if quiet else format_lines(reading.losses):
         console.print_note(shown(line))
     robot = reading.robot

@@ -32,12 +32,13 @@ def format_of(file: SourceFile) -> Format:
     return format_named(_FORMAT_OF.get(tag[1] if tag else b"", "urdf"))
 
 
-def read_other_format(file: SourceFile, packages: Packages) -> Robot | None:
+def read_other_format(file: SourceFile, packages: Packages, name: str = "") -> Robot | None:
     """Read a robot in a format other than URDF; return None for URDF and xacro.
 
     Args:
         file: The file.
         packages: Finder of meshes and included models.
+        name: Name of one of several robots in the file; empty for the largest.
 
     Raises:
         UrdftoolError: The file cannot be read.
@@ -46,4 +47,5 @@ def read_other_format(file: SourceFile, packages: Packages) -> Robot | None:
     if found.name == "urdf":
         return None
     workspace = packages.workspace
-    return found.read(file.path, file=file, packages=packages, workspace=workspace).robot
+    options = {"packages": packages, "workspace": workspace}
+    return found.read(file.path, file=file, name=name, **options).robot

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,12 +18,14 @@ from ..projects import is_trusted
 from ..source.document import STDIN, read_file
 from ..source.location import Place, SourceFile
 from ..source.packages import Packages
+from ..suggestions import find_nearest
 from ..workspace import Workspace
 
 LARGEST = 1e30
 """Largest number of a mass, size or pose; products of larger ones overflow."""
 
 _SHOWN = 3
+_LISTED = 20
 
 
 @dataclass
@@ -37,6 +39,29 @@ class Reading:
 
     robot: Robot
     losses: list[Finding] = field(default_factory=list)
+
+
+def find_chosen(name: str, known: Sequence[str], what: str, place: Place) -> int:
+    """Return the number of the robot of a name; ends of paths count as names.
+
+    Args:
+        name: The name.
+        known: Names or paths of the robots of a file.
+        what: Kind of a robot: ``model`` or ``articulation``.
+        place: Location in the file.
+
+    Raises:
+        ModelError: There is none, or several.
+    """
+    found = [i for i, other in enumerate(known) if other == name]
+    found = found or [i for i, other in enumerate(known) if other.rpartition("/")[2] == name]
+    if len(found) == 1:
+        return found[0]
+    names = ", ".join(known[:_LISTED]) + (", …" if len(known) > _LISTED else "")
+    near = find_nearest(name, known)
+    help_ = f"; did you mean '{near}'?" if near else ""
+    count = "no" if not found else f"{len(found)} times a"
+    raise ModelError(f"the file has {count} {what} '{name}'; it has {names}{help_}", at=place)
 
 
 class Losses:

@@ -7,9 +7,9 @@ import pytest
 def read(write, tmp_path):
     """Read the text of a stage; gives the reading."""
 
-    def reader(text):
+    def reader(text, **options):
         from urdftool.formats.usd.read import read
 
-        return read(write("s.usda", text), mesh_folder=tmp_path / "meshes")
+        return read(write("s.usda", text), mesh_folder=tmp_path / "meshes", **options)
 
     return reader

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.formats.usd.stages import body, stage, turning
+from urdftool.errors import ModelError
 
 pytestmark = pytest.mark.library("pxr")
 
@@ -125,6 +126,11 @@ def test_of_two_articulations_the_larger_is_read(read):
     assert sorted(reading.robot.link) == ["y0", "y1", "y2"]
     assert codes(reading)["unread-articulation"].data["names"] == ["/r/x"]
     assert codes(reading)["unread-body"].data["names"] == ["loose"]
+    text = stage(arm("x", 2), arm("y", 3), body("loose"))
+    for name in ("x", "/r/x"):
+        assert sorted(read(text, name=name).robot.link) == ["x0", "x1"]
+    with pytest.raises(ModelError, match="no articulation 'z'; it has /r/x, /r/y"):
+        read(text, name="z")
 
 
 def test_scale_counts_for_joint_frames_and_centers_of_mass(read):

@@ -94,6 +94,8 @@ def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
             for element in (section.children if tag not in MERGED else [section])
             if tag != "contact" or element.tag == "pair"
         ]
+        if tag in MERGED:
+            made = _merge(made)
         if has_reference and _is_at_reference(tag, made):
             continue
         values = context.compiled.values.get(tag, [])
@@ -106,6 +108,19 @@ def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
         found = _prune(context, child) if child.tag == "default" else None
         if found is not None:
             yield found
+
+
+def _merge(elements: list[NativeElement]) -> list[NativeElement]:
+    """Return one element for several of a tag; values of the last count, as for MuJoCo."""
+    tags: dict[str, NativeElement] = {}
+    for element in elements:
+        first = tags.setdefault(element.tag, element)
+        if first is not element:
+            first.attributes.update(element.attributes)
+            first.children += element.children
+    for first in tags.values():
+        first.children = _merge(first.children)
+    return list(tags.values())
 
 
 def _is_at_reference(tag: str, made: list[NativeElement]) -> bool:
@@ -187,6 +202,9 @@ def _is_of_robot(context: Context, tag: str, number: int, row: Row) -> bool:
     """Tell whether a part is one of a link."""
     if tag == "body":
         return bool(context.links[number])
+    if tag == "material":
+        geoms = (geom for geom in context.list_rows("geom") if geom["matid"] == number)
+        return any(context.has_link(geom) for geom in geoms)
     return "bodyid" not in row or context.has_link(row)
 
 

@@ -103,7 +103,7 @@ def _find_difference(one: NativeElement, two: NativeElement, *, part: bool) -> s
     """Return the first attribute or child that differs; of a part, only those of the source."""
     names = one.attributes if part else one.attributes.keys() | two.attributes.keys()
     for name in sorted(set(names) - {"class"}):
-        if one.attributes.get(name) != two.attributes.get(name):
+        if not _is_same(one.attributes.get(name), two.attributes.get(name)):
             return f"{name} is {two.attributes.get(name)}, not {one.attributes.get(name)}"
     for child, other in _match(one.children, two.children):
         if child is None and not part:
@@ -111,6 +111,16 @@ def _find_difference(one: NativeElement, two: NativeElement, *, part: bool) -> s
         if child is not None and (other is None or (_find_difference(child, other, part=part))):
             return f"<{child.tag}> differs"
     return ""
+
+
+def _is_same(one: str | None, two: str | None) -> bool:
+    """Tell whether two values are the same text or numbers."""
+    if one == two or one is None or two is None:
+        return one == two
+    try:
+        return [*map(float, one.split())] == [*map(float, two.split())]
+    except ValueError:
+        return False
 
 
 def _measure(one: Sequence[float], two: Sequence[float]) -> float:

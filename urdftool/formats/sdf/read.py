@@ -15,10 +15,10 @@ from ...model.settings import OF_ROBOT, read_sdf_settings
 from ...model.world import WORLD
 from ...source.description import Description
 from ...source.document import Document
-from ...source.location import SourceFile
+from ...source.location import Place, SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
-from ..reading import Losses, Reading, open_description
+from ..reading import Losses, Reading, find_chosen, open_description
 from .read_joints import (
     add_closure,
     add_frames,
@@ -40,6 +40,7 @@ def read(
     file: SourceFile | None = None,
     packages: Packages | None = None,
     workspace: Workspace | None = None,
+    name: str = "",
     **_: Any,
 ) -> Reading:
     """Read a robot: the model of the file, or the one with most joints.
@@ -49,6 +50,7 @@ def read(
         file: The file, if it has been read.
         packages: Finder of mesh files and models; None creates one.
         workspace: Access to files; None creates a new one.
+        name: Name of the model; empty for the one with most joints.
 
     Raises:
         SourceError: A file cannot be read, or includes itself.
@@ -58,7 +60,7 @@ def read(
     losses = Losses()
     models = Models(finder, workspace, losses)
     root = models.parse_root(file)
-    top = _choose(models.list_top_models(root), losses)
+    top = _choose(models.list_top_models(root), name, root.place, losses)
     if top is None and models.missing:
         raise models.missing[0]
     if top is None:
@@ -83,8 +85,12 @@ def _add_plugins(robot: Robot, top: Scope) -> None:
                 add_plugin(robot, plugin, owner, Written(plugin.place, plugin))
 
 
-def _choose(found: list[Scope], losses: Losses) -> Scope | None:
-    """Return the model with most joints, then most links; report the others."""
+def _choose(found: list[Scope], name: str, place: Place, losses: Losses) -> Scope | None:
+    """Return the model of a name, or with most joints, then most links; report the others.
+
+    Raises:
+        ModelError: No model, or several, have the name.
+    """
     sizes = {
         id(model): tuple(
             sum(len(part) for part in parts)
@@ -95,9 +101,11 @@ def _choose(found: list[Scope], losses: Losses) -> Scope | None:
         for model in found
     }
     top = max(found, key=lambda model: sizes[id(model)], default=None)
+    if name and found:
+        top = found[find_chosen(name, [model.name for model in found], "model", place)]
     for model in found:
         if top is not None and model is not top:
-            text = f"of {len(found)} models, only '{top.name}' is read"
+            text = f"of {len(found)} models, only '{top.name}' is read; -r NAME chooses another"
             losses.add("model", text, model.name, model.posed.place)
     return top if top is not None and sizes[id(top)][1] else None
 

@@ -33,7 +33,7 @@ def read(
     file: SourceFile | None = None,
     packages: Packages | None = None,
     workspace: Workspace | None = None,
-    articulation: str = "",
+    name: str = "",
     mesh_folder: str | Path | None = None,
     **_: Any,
 ) -> Reading:
@@ -44,7 +44,7 @@ def read(
         file: The file, if it has been read.
         packages: Finder of image files; None creates one.
         workspace: Access to files; None creates a new one.
-        articulation: Path of the prim of a robot; empty for the default prim.
+        name: Name or path of an articulation; empty for the one with most bodies.
         mesh_folder: Folder for the meshes of the stage, as STL and OBJ files; None is a folder
             in the user's cache.
 
@@ -65,7 +65,7 @@ def read(
         reading, read_files = call_with_limits(
             _read_stage,
             *opened,
-            *(str(path), located, articulation, folder),
+            *(str(path), located, name, folder),
             limits=choose_limits(LIMITS, opened.workspace),
             prepare=_import_library,
         )

@@ -20,7 +20,7 @@ from .read_unread import report_unread
 
 
 def read_stage(
-    opened: Opened, shown: str, path: str, articulation: str, mesh_folder: Path
+    opened: Opened, shown: str, path: str, name: str, mesh_folder: Path
 ) -> tuple[Reading, Dependencies]:
     """Read a robot, and return the files that were read.
 
@@ -28,7 +28,7 @@ def read_stage(
         opened: The file, finder of packages, and access to files.
         shown: The file as the user names it.
         path: The file, or a copy of standard input.
-        articulation: Path of the prim of a robot; empty for the default prim.
+        name: Name or path of an articulation; empty for the one with most bodies.
         mesh_folder: Folder for the meshes of the stage.
 
     Raises:
@@ -41,7 +41,7 @@ def read_stage(
     losses = Losses()
     with convert_errors(file):
         stage, layers = open_stage(path, file, losses, view)
-        context = Context(stage, layers, losses, articulation)
+        context = Context(stage, layers, losses, name)
         robot = Robot(Written(context.get_place(context.top)), context.robot_name, format="usd")
         root = Element("robot", {"name": robot.name}, None, file, 0)
         document = Document(file, root, [])

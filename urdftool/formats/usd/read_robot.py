@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pxr import Usd, UsdPhysics
 
 from ...diagnostic import Severity
+from ..reading import find_chosen
 from .read_stage import Context
 
 Ends = tuple[str, str, bool]
@@ -19,21 +20,28 @@ def choose_bodies(context: Context, joints: Iterable[Ends]) -> None:
     The robot is the articulation with most bodies. Without an articulation, it is the most bodies
     that joints connect. All bodies are kept if there is no joint, or if this tool wrote the
     stage.
+
+    Raises:
+        ModelError: No articulation, or several, have the name that the user chose.
     """
     joints = list(joints)
     groups = _connect(context, joints)
-    if len(groups) < 2 or context.is_ours:
+    if (len(groups) < 2 or context.is_ours) and not context.chosen:
         return
     robots = _find_robots(context, groups)
     if not robots:
         return
+    paths = [str(prim.GetPath()) for prim, _ in robots]
     chosen = max((bodies for _, bodies in robots), key=len)
+    if context.chosen:
+        place = context.get_place(context.top)
+        chosen = robots[find_chosen(context.chosen, paths, "articulation", place)][1]
     held = {second for first, second, is_fixed in joints if is_fixed and not first}
     if not held.isdisjoint(chosen):  # converters fix links of a root without mass to the world
         chosen = chosen.union(*(group for group in groups if len(group) == 1 and group <= held))
     others = [(prim, bodies) for prim, bodies in robots if bodies.isdisjoint(chosen)]
     for prim, _ in others:
-        text = f"of {len(others) + 1} articulations, one is read, without"
+        text = f"of {len(others) + 1} articulations, one is read; -r NAME chooses another"
         path, place = str(prim.GetPath()), context.get_place(prim)
         context.losses.add("articulation", text, path, place)
     for path, prim in context.bodies.items():

@@ -37,6 +37,7 @@ class Context:
         top: Prim below which the robot is; the pseudo-root if no prim is the default.
         length: Meters in a unit of length.
         mass: Kilograms in a unit of mass.
+        chosen: Name of the articulation that is read; empty for the one with most bodies.
         is_ours: Whether urdftool wrote the stage.
         bodies: Prims of rigid bodies by path, in the order of the stage.
         joints: Prims of joints, in the order of the stage.
@@ -44,7 +45,7 @@ class Context:
         shifts: Pose of the frame of each link in the frame of its prim, by path.
     """
 
-    def __init__(self, stage: Usd.Stage, layers: Layers, losses: Losses, articulation: str) -> None:
+    def __init__(self, stage: Usd.Stage, layers: Layers, losses: Losses, chosen: str) -> None:
         """Find the bodies and joints of a stage.
 
         Raises:
@@ -52,7 +53,8 @@ class Context:
         """
         self.stage, self.losses = stage, losses
         self.layers = layers
-        self.top = self._find_top(articulation)
+        self.top = stage.GetDefaultPrim() or stage.GetPseudoRoot()
+        self.chosen = chosen
         self.length = self._check_unit("metersPerUnit", UsdGeom.GetStageMetersPerUnit(stage))
         kilograms = UsdPhysics.GetStageKilogramsPerUnit(stage)
         self.mass = self._check_unit("kilogramsPerUnit", kilograms)
@@ -70,16 +72,6 @@ class Context:
         self.shifts: dict[str, Pose] = {}
         if not self.bodies and not self.is_ours:
             raise ModelError("the stage has no rigid body", at=self.get_place(self.top))
-
-    def _find_top(self, articulation: str) -> Usd.Prim:
-        if articulation:
-            prim = self.stage.GetPrimAtPath(articulation)
-            if not prim:
-                at = self.get_place(self.stage.GetPseudoRoot())
-                raise ModelError(f"the stage has no prim {articulation}", at=at)
-            return prim
-        default = self.stage.GetDefaultPrim()
-        return default if default else self.stage.GetPseudoRoot()
 
     def _check_unit(self, name: str, value: float) -> float:
         if not 0 < value < LARGEST:
