@@ -24,15 +24,10 @@ from .words import BUILT_IN, XACRO, Word, WordKind
 MOST_ITEMS = 500
 """Items of one answer; chosen: a person reads twenty, an editor filters what is typed."""
 
-_PROPERTY, _CLASS, _FUNCTION, _VARIABLE, _FILE, _FOLDER = (
-    10,
-    7,
-    3,
-    6,
-    17,
-    19,
-)  # CompletionItemKind; source: the protocol, 3.17
-_MODULE, _ENUM, _EVENT = 9, 20, 23  # CompletionItemKind; source: the protocol, 3.17
+# CompletionItemKind; source: the protocol, 3.17
+_FUNCTION, _VARIABLE, _CLASS = 3, 6, 7  # source: the protocol
+_MODULE, _PROPERTY, _FILE, _FOLDER = 9, 10, 17, 19  # source: the protocol
+_ENUM, _EVENT = 20, 23  # source: the protocol
 _SNIPPET = 2  # InsertTextFormat; source: the protocol, 3.17
 _EXPRESSION = re.compile(r"\$\{[^}]*?([A-Za-z_][\w.]*)?\Z")
 _EXTENSION = re.compile(r"\$\(([^)\s]*)(\s+)?([^)\s]*)\Z")

@@ -20,6 +20,10 @@ from .words import XACRO, Word, WordTable
 MOST_RECORDED = 3
 """Robots whose lookups are recorded to find a definition; chosen: each takes 0.1 to 0.2 s."""
 
+MOST_BLANKS = 32
+"""Bytes between a parameter and the mark of its forwarding; chosen: there are at most a few."""
+
+_FORWARD = re.compile(rb"\s*:?=\s*\^")
 _LINKS = ("link", "part")
 _JOINTS = ("joint", "part")
 _FIND = re.compile(r"\$\(find\s+([\w.-]+)\s*\)")
@@ -145,7 +149,7 @@ class Names:
     def find_definitions(self, word: Word) -> list[Word]:
         """Return the names that define what a name means, without repetition."""
         if word.is_definition:
-            found = [word]
+            found = [word, *(self.find_recorded(word) if _is_forwarded(word) else ())]
         elif word.kind in (*_LINKS, "joint"):
             found = list(self._list_part_definitions(word)) or self._find_literal(word)
         elif word.kind == "material":
@@ -258,6 +262,12 @@ def _list_parts(robot: Robot, kind: str, name: str) -> Iterator[Link | Joint | N
         yield robot.link.get(name)
     if kind in _JOINTS:
         yield robot.joint.get(name)
+
+
+def _is_forwarded(word: Word) -> bool:
+    """Tell whether a parameter has the value of a name of the caller: ``name:=^``."""
+    after = word.element.file.data[word.end : word.end + MOST_BLANKS]
+    return word.attribute == "params" and _FORWARD.match(after) is not None
 
 
 def _get_key(word: Word) -> _Site:

@@ -1,0 +1,1 @@
+"""Measurements of ``urdftool server``: definitions, time and memory of checks."""
