@@ -43,7 +43,7 @@ MENU = {
     "Measurements": (
         *("benchmarks", "fidelity", "verify", "robustness", "simulate-robots"),
         *("srdf-vendors", "srdf-numbers"),
-        *("collision-measurements", "edit-measurements"),
+        *("collision-measurements", "edit-measurements", "server-measurements"),
         *("inertia-vendors", "vendors", "lint-precision"),
     ),
     "Development": ("architecture", "contributing"),

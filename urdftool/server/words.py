@@ -30,6 +30,7 @@ BUILT_IN = frozenset(
 BLOCKS = ("gazebo", "transmission", "ros2_control")
 _FILES = (f"{XACRO}include", "include", "mesh", "texture")
 _PIECE = re.compile(rb"\$\$+[{(]|\$\{(?P<expression>[^}]*)\}|\$\((?P<extension>[^)]*)\)")
+_EXTENSION = re.compile(rb"\$\(([^)]*)\)")
 _NAME = re.compile(
     rb"""'[^']*'|"[^"]*"|(?P<dotted>\.\s*)?(?P<name>[A-Za-z_\x80-\xff][\w\x80-\xff]*)"""
 )
@@ -233,9 +234,18 @@ def _list_inner(element: Element, attribute: str, start: int, end: int) -> Itera
         return
     for piece in _PIECE.finditer(data, start, end):
         if piece["expression"] is not None:
-            yield from _list_names(element, attribute, *piece.span("expression"))
+            yield from _list_expression(element, attribute, *piece.span("expression"))
         elif piece["extension"] is not None:
             yield from _list_extension(element, attribute, *piece.span("extension"))
+
+
+def _list_expression(element: Element, attribute: str, start: int, end: int) -> Iterator[Word]:
+    """Yield the names in an expression, and in ``$(…)`` inside of it, which xacro expands first."""
+    for match in _EXTENSION.finditer(element.file.data, start, end):
+        yield from _list_names(element, attribute, start, match.start())
+        yield from _list_extension(element, attribute, *match.span(1))
+        start = match.end()
+    yield from _list_names(element, attribute, start, end)
 
 
 def _list_extension(element: Element, attribute: str, start: int, end: int) -> Iterator[Word]:

@@ -37,6 +37,7 @@ class LookupRecorder:
         self._get_node = get_node
         self._askers: list[_Site] = []
         self._macro: _Site | None = None
+        self._macro_type: type = type(None)
         self._arguments: dict[str, _Site] = {}
 
     def record(self, kind: LookupKind, name: str, definition: _Site | None) -> None:
@@ -60,6 +61,7 @@ class LookupRecorder:
 
     def install(self, xacro: Any, substitution_args: Any) -> None:
         """Replace functions of xacro and of its tables by ones that record."""
+        self._macro_type = xacro.Macro
         table = xacro.Table
         for owner, name, wrap in (
             (table, "_setitem", self._wrap_set),
@@ -89,6 +91,8 @@ class LookupRecorder:
 
     def _wrap_resolve(self, original: Callable[..., Any]) -> Callable[..., Any]:
         def resolve(table: Any, key: str) -> Any:
+            if isinstance(dict.__getitem__(table, key), self._macro_type):
+                return original(table, key)
             site = table.__dict__.get(_PLACES, {}).get(key)
             self.record("name", key, site)
             if site is None or key not in table.unevaluated:
