@@ -12,7 +12,9 @@ WAIT = 120  # s; no test is faster or slower by it: it only ends one that would 
 class Client:
     """An editor without a screen."""
 
-    def __init__(self, folder, *options, encoding="utf-16", capabilities=None, env=None):
+    def __init__(
+        self, folder, *options, encoding="utf-16", capabilities=None, env=None, process=None
+    ):
         self.process = subprocess.Popen(
             [sys.executable, "-m", "urdftool", "server", *options],
             stdin=subprocess.PIPE,
@@ -31,7 +33,7 @@ class Client:
         general = {"positionEncodings": [encoding]}
         answer = self.ask(
             "initialize",
-            processId=None,
+            processId=process,
             rootUri=folder.as_uri(),
             workspaceFolders=[{"uri": folder.as_uri(), "name": "robots"}],
             capabilities={"general": general, **(capabilities or {})},

@@ -1,5 +1,8 @@
 """The server as an editor sees it, over pipes."""
 
+import subprocess
+import sys
+
 import pytest
 
 from tests.server.client import Client
@@ -190,14 +193,39 @@ def test_formatting_is_that_of_fmt(client, macro):
 
 @pytest.mark.parametrize("position", [place(10**6, 3), place(0, 10**6), place(3, 10**6)])
 def test_positions_beyond_the_end(client, macro, position):
-    question = {"textDocument": {"uri": macro.as_uri()}, "position": position}
-    client.ask("textDocument/hover", **question)
+    document = {"uri": macro.as_uri()}
+    for method in ("hover", "definition", "completion", "prepareRename"):
+        client.ask(f"textDocument/{method}", textDocument=document, position=position)
+    context = {"includeDeclaration": True}
+    client.ask("textDocument/references", textDocument=document, position=position, context=context)
+    client.request("textDocument/rename", textDocument=document, position=position, newName="x")
     client.ask(
         "textDocument/codeAction",
-        textDocument={"uri": macro.as_uri()},
+        textDocument=document,
         range={"start": position, "end": position},
         context={"diagnostics": []},
     )
+
+
+def test_what_xacro_prints_is_not_part_of_the_protocol(client, folder):
+    path = folder / "prints.urdf.xacro"
+    text = MAIN.replace("<link", "${xacro.message('Content-Length: 3')}${print('x')}<link", 1)
+    path.write_text(text)
+    client.open(path)
+    client.settle(path)
+    client.notify("textDocument/didClose", textDocument={"uri": path.as_uri()})
+    path.unlink()
+
+
+@pytest.mark.slow  # waits until the server looks again
+def test_the_server_ends_when_its_editor_was_killed(folder):
+    editor = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
+    client = Client(folder, process=editor.pid)
+    client.open(folder / "two.urdf.xacro")
+    client.settle(folder / "two.urdf.xacro")
+    editor.kill()
+    editor.wait()
+    assert client.process.wait(120) == 0
 
 
 @pytest.mark.parametrize(("encoding", "column"), [("utf-8", 23), ("utf-16", 21), ("utf-32", 20)])

@@ -83,7 +83,7 @@ def list_completions(knowledge: Knowledge, params: dict[str, Any]) -> list[dict[
     """Return what may be typed at a position."""
     file = knowledge.read(params["path"])
     offset = knowledge.get_offset(params)
-    cursor = find_cursor(file, offset)
+    cursor = find_cursor(file, offset) if knowledge.get_words(params["path"]) else None
     if cursor is None:
         return []
     typed, items = _Completion(knowledge, params["path"], cursor).list_items()

@@ -29,6 +29,9 @@ from .words import WordTable
 MOST_ROBOTS = 8
 """Robots that are checked for one file of macros; chosen: a check takes up to 0.2 s."""
 
+MOST_BYTES = 4 << 20
+"""Size [bytes] of a document whose names are known; chosen: the largest of 219 has 142 kB."""
+
 _DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".mjcf", ".world")
 _NOT_ALONE = (".srdf", ".srdf.xacro")
 _ROOT = re.compile(rb"<(robot|mujoco|sdf)[\s>/]")
@@ -240,8 +243,10 @@ class Knowledge:
             return None
 
     def get_words(self, path: str) -> WordTable | None:
-        """Return the names in a file; None if it cannot be parsed, even leniently."""
+        """Return the names in a file; None if it is too large, or cannot be parsed at all."""
         real, data = os.path.realpath(path), self.read(path).data
+        if len(data) > MOST_BYTES:
+            return None
         known = self._words.get(real)
         if known is None or known[0] != data:
             document = self.parse_leniently(path)

@@ -18,6 +18,9 @@ from .moves import compare_texts, make_change
 from .publication import Publication
 from .worker_process import PATIENCE, WorkerProcess
 
+WATCH = 3.0
+"""Time [s] between looks at whether the process of the editor exists; chosen."""
+
 QUIET = 0.05
 """Time [s] without an edit before a check; chosen: keys of a fast typist are 0.1 s apart."""
 
@@ -154,6 +157,17 @@ class RobotServer(LanguageServer):
     def _list_robots(self) -> set[str]:
         return {robot for robots in self._robots.values() for robot in robots}
 
+    async def watch_editor(self) -> None:
+        """End this process when that of the editor has ended without a word.
+
+        A process that does not exist from the start is one of another container or machine.
+        """
+        while self.process_id and _is_running(self.process_id):
+            await asyncio.sleep(WATCH)
+            if not _is_running(self.process_id):
+                self.worker.kill()
+                os._exit(0)
+
     async def refresh(self) -> None:
         """Read files again, which changed on the disk, and check all open documents."""
         await self.ask("refresh", {})
@@ -248,3 +262,16 @@ class RobotServer(LanguageServer):
             for path, some in made.items()
         ]
         return lsp.WorkspaceEdit(document_changes=list(changes))
+
+
+def _is_running(process: int) -> bool:
+    """Tell whether a process exists; where the system cannot tell without harm, it does not."""
+    if os.name != "posix":
+        return False
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
