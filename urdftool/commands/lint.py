@@ -29,10 +29,10 @@ FORMATS = ("full", "concise", "json", "sarif", "github", "junit", "html")
 _WITH_FIXES = ("full", "json", "sarif", "html")
 LEVELS = ("error", "warning", "info")
 _GROUPS = {
-    "What to do": "fix diff unsafe_fixes fix_meshes watch explain list_rules",
+    "What to do": "fix diff unsafe_fixes fix_meshes explain list_rules",
     "Rules": "select extend_select ignore target baseline write_baseline",
     "Output": "style whole output_file junit statistics fail_on exit_zero",
-    "Input": "no_expand list_robots changed_since",
+    "Input": "no_expand list_robots changed_since watch",
     "Performance": "jobs",
 }
 
@@ -151,14 +151,16 @@ def command(console: Console, /, watch: bool, **given: Any) -> int:
     robot could not be read or expanded, and was not checked.
     """  # noqa: D301 -- click reads the escape
     if not watch:
-        return _lint(console, **given)
+        return _check_paths(console, **given)
     from .lint_watch import watch_files
 
     paths, _ = split_arguments(given["words"])
-    return watch_files(console, paths, given, lambda check: _lint(console, **given, check=check))
+    return watch_files(
+        console, paths, given, lambda check: _check_paths(console, **given, check=check)
+    )
 
 
-def _lint(
+def _check_paths(
     console: Console,
     words: tuple[str, ...],
     select: tuple[str, ...],

@@ -55,7 +55,7 @@ class Watch:
         self._paths = list(paths)
         self._known: dict[str, _Known] = {}
         self._noticed: Stamps = {}
-        self._places = self._stamp_places()
+        self._places = self._read_place_stamps()
 
     def check_files(
         self, paths: Sequence[str], options: Options, jobs: int | None = None
@@ -100,19 +100,19 @@ class Watch:
             begin = time.monotonic()
             changed = self.list_changed()
             if changed:
-                self._notice()
+                self._store_stamps()
                 return changed
             sleep(max(_PERIOD, (time.monotonic() - begin) / _SHARE))
 
-    def _notice(self) -> None:
+    def _store_stamps(self) -> None:
         """Store the present stamps, so that a change is reported once, also if no check follows."""
-        self._places = self._stamp_places()
+        self._places = self._read_place_stamps()
         questions = {question for one in self._known.values() for question in one.stamps}
         self._noticed = {question: read_stamp(question) for question in questions}
 
     def list_changed(self) -> list[str]:
         """Return the paths that changed since the last reports, without folders around others."""
-        now = self._stamp_places()
+        now = self._read_place_stamps()
         before = self._places
         changed = {path for path in before.keys() | now if before.get(path) != now.get(path)}
         for known in self._known.values():
@@ -125,7 +125,7 @@ class Watch:
         questions = {question for one in self._known.values() for question in one.stamps}
         return len({path for kind, path in questions if kind == "file"} | self._places.keys())
 
-    def _stamp_places(self) -> dict[str, Stamp | None]:
+    def _read_place_stamps(self) -> dict[str, Stamp | None]:
         """Return the stamps of the named files and of those below the named folders."""
         found: list[str] = []
         for path in self._paths:
