@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 
 _GROUPS = {
-    "Page": "opened port host srdf unlinted",
+    "Page": "opened at port host srdf unlinted",
     "Picture": "picture findings contact_sheet size camera",
     "Robot": "pose show",
 }
@@ -39,6 +40,11 @@ _GROUPS = {
 )
 @click.option("--open", "opened", is_flag=True, help="Open the page in the browser.")
 @click.option(
+    "--at",
+    metavar="FILE:LINE",
+    help="Select the link whose element, or whose joint, is at a line of the source.",
+)
+@click.option(
     "--srdf",
     metavar="FILE",
     help="SRDF: the page shows the joint positions at which pairs that it disables touch.",
@@ -54,6 +60,7 @@ def command(
     port: int | None,
     host: str | None,
     opened: bool,
+    at: str | None,
     srdf: str | None,
     unlinted: bool,
     picture: str | None,
@@ -92,9 +99,9 @@ def command(
     if picture is not None or contact_sheet is not None:
         from .view_picture import check_pictures, write_pictures
 
-        if port is not None or host is not None or opened:
+        if port is not None or host is not None or opened or at is not None:
             raise click.UsageError(
-                "--picture and --contact-sheet exclude --port, --host and --open"
+                "--picture and --contact-sheet exclude --port, --host, --open and --at"
             )
         if srdf is not None:
             raise click.UsageError(
@@ -126,6 +133,7 @@ def command(
         port=port,
         host=host,
         opened=opened,
+        at=None if at is None else _read_line(at),
         linted=not unlinted and not is_mesh(path),
         pose=pose,
         show=show,
@@ -133,3 +141,15 @@ def command(
         arguments=arguments,
     )
     return 0
+
+
+def _read_line(text: str) -> tuple[str, int]:
+    """Return the file and line of ``FILE:LINE`` or ``FILE:LINE:COLUMN``.
+
+    Raises:
+        click.UsageError: It is written in another way.
+    """
+    match = re.fullmatch(r"(.+?):(\d{1,9})(?::\d+)?", text)
+    if match is None:
+        raise click.UsageError(f"--at requires FILE:LINE, such as arm.urdf.xacro:12, not '{text}'")
+    return match[1], int(match[2])

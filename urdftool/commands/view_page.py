@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ..finding import Finding
     from ..model.elements import Robot
     from ..model.pair_pose import PairPose
+    from ..viewer.page import Page
 
 
 def serve_page(
@@ -25,6 +26,7 @@ def serve_page(
     port: int | None,
     host: str | None,
     opened: bool,
+    at: tuple[str, int] | None = None,
     linted: bool,
     pose: Mapping[str, float],
     show: str,
@@ -39,6 +41,7 @@ def serve_page(
         port: Port; None for the default or the next free one.
         host: Network address; None for this computer only.
         opened: Open the page in the browser.
+        at: File and line of its source whose link is selected.
         linted: Show lint findings.
         pose: Initial joint positions by name [rad or m].
         show: Geometry to show: ``visual``, ``collision`` or ``both``.
@@ -80,6 +83,8 @@ def serve_page(
             more=() if srdf is None else (srdf,),
         )
         pages.append(page)
+        if at is not None:
+            _select_link(console, page, robot, *at)
         where = make_url(host, port, token)
         write_result(f"{where}\n", None)
         console.print_note("press Ctrl-C to stop")
@@ -88,6 +93,17 @@ def serve_page(
         page.run()
     finally:
         server.stop()
+
+
+def _select_link(console: Console, page: Page, robot: Robot, path: str, line: int) -> None:
+    from ..viewer.source_position import find_link_at
+
+    link = find_link_at(robot, path, line)
+    if link is None:
+        console.print_message(f"{path}:{line}: no link or joint of the robot begins by this line")
+    else:
+        page.select(link)
+        console.print_note(f"{path}:{line}: link '{link}'")
 
 
 def _load(console: Console, robot: Robot, kind: str) -> Shapes:
