@@ -1,4 +1,4 @@
-"""The extension of VS Code: what it starts exists, and it builds where its packages are installed."""
+"""The extension of VS Code: what it starts exists; it builds where its packages are installed."""
 
 import json
 import re
