@@ -25,9 +25,12 @@ def choose_start(robot: Robot, settings: Settings) -> tuple[Settings, list[Findi
         The settings with the positions that differ from zero within the limits, and notes on them.
     """
     from ..formats.common.base import decide_base
+    from ..formats.common.base_pose import get_robot_origin
+    from ..formats.common.holding_pose import choose_holding_positions
     from ..formats.common.home_positions import choose_home_positions
     from ..formats.common.shape_box import ShapeBoxes
     from ..formats.common.standing_pose import choose_standing_positions
+    from ..formats.common.upright import turn_upright
     from ..formats.mjcf.structure import create_structure
     from ..formats.written import Written
 
@@ -44,7 +47,14 @@ def choose_start(robot: Robot, settings: Settings) -> tuple[Settings, list[Findi
     )
     positions = home.values
     if is_free:
+        tree = replace(tree, robot=turn_upright(tree, boxes, positions, written))
         positions = choose_standing_positions(tree, boxes, home, written)
+        positions = choose_holding_positions(tree, boxes, home, positions, written)
+    origin = get_robot_origin(tree.robot)
+    turn = (0.0, 0.0, 0.0) if origin is None or tree.robot is robot else origin.rpy
     plain = start_positions(robot)[0]
     pose = {n: v for n, v in positions.items() if n in leading and v != plain.get(n, 0.0)}
-    return replace(settings, pose=pose | settings.pose), written.losses
+    settings = replace(settings, pose=pose | settings.pose)
+    if not any(settings.start_rpy):
+        settings = replace(settings, start_rpy=turn)
+    return settings, written.losses

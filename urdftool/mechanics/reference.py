@@ -69,11 +69,19 @@ class Mechanics:
             matrix += mass * linear.T @ linear + angular.T @ tensor @ angular
         return matrix
 
-    def compute_gravity(self, positions: Mapping[str, float]) -> Array:
-        """Compute the force [N·m or N] that each joint needs to hold the robot against gravity."""
+    def compute_gravity(
+        self, positions: Mapping[str, float], rotation: Array | None = None
+    ) -> Array:
+        """Compute the force [N·m or N] that each joint needs to hold the robot against gravity.
+
+        Args:
+            positions: Joint positions by name [rad or m].
+            rotation: Rotation of the root in the world, 3 × 3; None for the identity.
+        """
+        down = GRAVITY if rotation is None else rotation.T @ GRAVITY
         force = np.zeros(len(self.joints))
         for mass, _, linear, _ in self._compute_jacobians(positions):
-            force -= mass * linear.T @ GRAVITY
+            force -= mass * linear.T @ down
         return force
 
     def compute_centroid(self, positions: Mapping[str, float]) -> tuple[float, Array, Array]:

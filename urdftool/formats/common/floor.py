@@ -5,31 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from ...model.elements import Origin, Robot, Vector
 from ...model.pose import Pose
-from ...model.read import parse_numbers
 from .rigid_tree import RigidTree
 from .shape_box import ShapeBoxes
 from .standing import measure_ground
 
 NEAT = 1e-6
 """Step [m] to which the height of a base is rounded down."""
-
-
-def get_robot_origin(robot: Robot) -> Origin | None:
-    """Return the pose of the root in the world; ``<origin>`` of ``<robot>`` in URDF."""
-    if robot.base is not None:
-        return robot.base.origin
-    element = robot.find_child_xml("origin")
-    if element is None:
-        return None
-    zero: Vector = (0.0, 0.0, 0.0)
-    xyz, rpy = parse_numbers(element.get("xyz"), 3), parse_numbers(element.get("rpy"), 3)
-    return Origin(
-        element,
-        zero if xyz is None else (xyz[0], xyz[1], xyz[2]),
-        zero if rpy is None else (rpy[0], rpy[1], rpy[2]),
-    )
 
 
 def lift_to_floor(

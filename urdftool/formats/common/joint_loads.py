@@ -29,6 +29,11 @@ _RESERVE = 2.0
 """Ratio of stiffness to the m·g·h at which an inverted pendulum tips; chosen, no source."""
 
 
+SINGULAR = 1e-6
+"""Ratio of these inertias below which nothing with mass is between two axes; chosen, no source."""
+
+_LEAST_EIGENVALUE = 1e-12  # of the mass matrix with a diagonal of ones, above its rounding
+
 LEAST_REDUCED = 0.1
 """Least ratio of the inertia with the other joints free to that with them held; chosen, no source.
 
@@ -46,12 +51,14 @@ class JointLoad:
             ``inertia`` if the ground carries what it moves.
         force: Torque or force with which it holds the robot against gravity [N·m or N].
         stiffness: Stiffness [N·m/rad] below which a robot above its feet may tip; 0 for none.
+        is_singular: Whether the joint and another can turn against each other without moving mass.
     """
 
     inertia: float = 0.0
     reduced: float = 0.0
     force: float = 0.0
     stiffness: float = 0.0
+    is_singular: bool = False
 
     def add_armature(self, armature: float) -> JointLoad:
         """Return the load with a rotor inertia at the joint [kg·m² or kg]."""
@@ -93,7 +100,7 @@ def compute_joint_loads(
     below = _get_bodies_below(tree)
     found = {}
     joints = [j for j in tree.moving if j.type in ("revolute", "continuous", "prismatic")]
-    reduced = _compute_reduced(tree, joints, poses, bodies, below)
+    ratios = _compute_ratios(tree, joints, poses, bodies, below)
     for joint in joints:
         moved = below[tree.group[joint.child]]
         held = np.array([carrier in moved for carrier in carriers], dtype=bool)
@@ -103,8 +110,9 @@ def compute_joint_loads(
         if held.any():
             load = replace(load, stiffness=_compute_stiffness(joint, poses[joint.child], bodies))
         else:
-            load = replace(load, reduced=reduced[joint.name])
-        found[joint.name] = load
+            part = min(max(ratios[joint.name], LEAST_REDUCED), 1.0)
+            load = replace(load, reduced=part * load.inertia)
+        found[joint.name] = replace(load, is_singular=ratios[joint.name] < SINGULAR)
     return found
 
 
@@ -153,17 +161,18 @@ def _compute_load(
     return JointLoad(inertia, inertia, abs(torque))
 
 
-def _compute_reduced(
+def _compute_ratios(
     tree: RigidTree,
     joints: Sequence[Joint],
     poses: Mapping[str, Pose],
     bodies: _Bodies,
     below: Mapping[str, set[str]],
 ) -> dict[str, float]:
-    """Compute the inertia of each joint while the others are free, on a fixed base, by name.
+    """Compute the inertia of each joint with the others free, relative to that with them held.
 
-    It is the reciprocal of the diagonal element of the inverse mass matrix M. An element of M is
-    the generalized momentum of one joint for the unit velocity of the other below it.
+    The base is fixed. The inertia is the reciprocal of the diagonal element of the inverse mass
+    matrix M. An element of M is the generalized momentum of one joint for the unit velocity of the
+    other below it. A joint that moves no mass has the ratio 1.
     """
     size = len(joints)
     matrix = np.zeros((size, size))
@@ -175,14 +184,13 @@ def _compute_reduced(
             if tree.group[joint.child] in below[tree.group[other.child]]:
                 matrix[row, column] = matrix[column, row] = float(screws[row] @ momentum)
     known = np.flatnonzero(np.diag(matrix) > 0)
-    own = np.diag(matrix)[known]
-    scale = 1 / np.sqrt(own)
+    scale = 1 / np.sqrt(np.diag(matrix)[known])
     scaled = matrix[np.ix_(known, known)] * np.outer(scale, scale)
-    ratios = 1 / np.diag(np.linalg.pinv(scaled, hermitian=True)) if len(known) else own
-    found = dict.fromkeys((joint.name for joint in joints), 0.0)
-    for number, inertia, ratio in zip(known, own, ratios, strict=True):
-        part = min(max(float(ratio), LEAST_REDUCED), 1.0)
-        found[joints[int(number)].name] = part * float(inertia)
+    values, vectors = np.linalg.eigh(scaled)
+    inverse = (vectors**2 / np.maximum(values, _LEAST_EIGENVALUE)).sum(axis=1)
+    found = dict.fromkeys((joint.name for joint in joints), 1.0)
+    for number, element in zip(known, inverse, strict=True):
+        found[joints[int(number)].name] = 1 / float(element)
     return found
 
 

@@ -13,9 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...model.elements import Joint
-from ...model.kinematics import link_poses
 from ...model.pose import Pose
 from ...model.start import compute_allowed_range
+from .base_pose import compute_level_poses
 from .rigid_tree import RigidTree
 from .shape_box import ShapeBoxes
 from .standing import get_chain, list_leg_ends
@@ -75,7 +75,7 @@ def find_legs(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]
         boxes: Boxes of its shapes.
         positions: Joint positions [rad, m], which decide what reaches the ground.
     """
-    poses = link_poses(tree.robot, positions)
+    poses = compute_level_poses(tree.robot, positions)
     return [
         leg
         for end in list_leg_ends(tree, boxes, positions)

@@ -12,6 +12,7 @@ from ...model.drives import get_commanded_joints
 from ...model.elements import Joint
 from ...model.kinematics import link_poses
 from ...model.pose import Pose, rotate
+from .base_pose import compute_level_poses
 from .rigid_tree import RigidTree
 from .shape_box import Bounds, ShapeBoxes
 from .support import compute_center
@@ -101,9 +102,10 @@ def measure_ground(
         tree: The rigid bodies.
         boxes: Boxes of its shapes.
         positions: Joint positions [rad, m].
-        root: Pose of the root; the identity by default.
+        root: Pose of the root; by default at zero, turned as in the description.
     """
-    poses = link_poses(tree.robot, positions)
+    turned = compute_level_poses if root is None else link_poses
+    poses = turned(tree.robot, positions)
     collides = any(link.collisions for link in tree.robot.links)
     found: dict[str, list[Bounds]] = {}
     lows: dict[str, tuple[float, str]] = {}
@@ -161,6 +163,20 @@ def explain_free_base(
     if len(wheels) > 1:
         return f"it stands on wheels {_format_listed(wheels)}"
     return _describe_feet(tree, positions, ground, stands) or _describe_legs(tree)
+
+
+def describe_feet(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]) -> str | None:
+    """Describe the feet on which a robot stands at a pose; None if it does not stand on two.
+
+    Args:
+        tree: The rigid bodies.
+        boxes: Boxes of its shapes.
+        positions: Joint positions [rad, m].
+    """
+    ground = measure_ground(tree, boxes, positions)
+    if ground is None:
+        return None
+    return _describe_feet(tree, positions, ground, ground.get_near(LEVEL))
 
 
 def _describe_feet(
@@ -221,7 +237,7 @@ def _is_wheel(
     tree: RigidTree, joint: Joint, positions: Mapping[str, float], ground: Ground
 ) -> bool:
     """Tell whether a joint rotates a round body about a horizontal axis through its center."""
-    pose = link_poses(tree.robot, positions)[joint.child]
+    pose = compute_level_poses(tree.robot, positions)[joint.child]
     x, y, z = rotate(pose.rotation, joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
     length = math.hypot(x, y, z)
     low, high = _get_around(ground.boxes[joint.child])
@@ -283,7 +299,7 @@ def _is_above(
     high: Iterable[float],
 ) -> bool:
     """Tell whether the center of mass is above a box; true for a robot without mass."""
-    poses = link_poses(tree.robot, positions)
+    poses = compute_level_poses(tree.robot, positions)
     center = compute_center(tree.robot, poses)
     if center is None:
         return True

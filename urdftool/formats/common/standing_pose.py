@@ -13,10 +13,10 @@ import numpy.typing as npt
 
 from ...diagnostic import Severity
 from ...errors import ModelError
-from ...model.kinematics import link_poses
 from ...model.pose import Pose
 from ...model.start import start_positions
 from ..written import Written
+from .base_pose import compute_level_poses
 from .home_positions import STAND, HomePositions
 from .legs import Bends, Leg, find_legs, list_bends
 from .rigid_tree import RigidTree
@@ -60,7 +60,7 @@ def compute_standing_positions(
     others = {name: value for name, value in positions.items() if name not in bent}
     found, shift = dict(positions), np.zeros(2)
     for number in range(_ROUNDS):
-        poses = link_poses(tree.robot, found)
+        poses = compute_level_poses(tree.robot, found)
         feet = [list_contact_points(tree, boxes, leg.foot, poses) for leg in legs]
         if not all(map(len, feet)):
             return None
@@ -124,7 +124,7 @@ def choose_standing_positions(
     ):
         return home.values
     found = compute_standing_positions(tree, boxes, legs, home.values) if is_whole else None
-    if found is None or _compute_margin(tree, boxes, found) < MARGIN:
+    if found is None or compute_standing_margin(tree, boxes, found) < MARGIN:
         if home.stands:
             raise ModelError(_explain_unbent(legs, ends, found), at=tree.robot.place)
         return home.values
@@ -147,9 +147,11 @@ def _needs_bend(
     return any(ground.get_lowest(leg.foot) > low for leg in legs)
 
 
-def _compute_margin(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]) -> float:
-    """Return the margin of the center of mass [m]; infinite for a robot without mass."""
-    poses = link_poses(tree.robot, positions)
+def compute_standing_margin(
+    tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]
+) -> float:
+    """Compute the margin of the center of mass [m]; infinite for a robot without mass."""
+    poses = compute_level_poses(tree.robot, positions)
     center = compute_center(tree.robot, poses)
     if center is None:
         return math.inf
@@ -167,7 +169,7 @@ def report_support(
         positions: Joint positions at home [rad, m].
         written: Receives a note.
     """
-    poses = link_poses(tree.robot, positions)
+    poses = compute_level_poses(tree.robot, positions)
     center, ground = compute_center(tree.robot, poses), measure_ground(tree, boxes, positions)
     if center is None or ground is None:
         return

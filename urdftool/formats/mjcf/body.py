@@ -6,7 +6,7 @@ from lxml import etree
 
 from ...model.elements import Joint, Link
 from ...model.settings import LINKS_OF_MUJOCO
-from ..common.floor import get_robot_origin
+from ..common.base_pose import get_robot_origin
 from ..common.naming import UniqueNames
 from ..written import Written
 from .frame import set_origin, set_pose

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from ...model.kinematics import link_poses
 from ...model.pose import Pose, make_pose
-from ..common.floor import get_robot_origin, lift_to_floor, round_neat
+from ..common.base_pose import get_robot_origin
+from ..common.floor import lift_to_floor, round_neat
 from ..common.shape_box import ShapeBoxes
 from ..common.standing import measure_ground
 from .structure import Structure

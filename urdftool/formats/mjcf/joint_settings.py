@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Set
 from dataclasses import replace
 
 from ...diagnostic import Severity
@@ -39,28 +40,60 @@ def choose_joint_settings(structure: Structure, options: Options) -> dict[str, J
 
 
 def set_joint_values(
-    structure: Structure, settings: dict[str, JointSettings], written: Written
+    structure: Structure,
+    settings: Mapping[str, JointSettings],
+    singular: Set[str],
+    written: Written,
 ) -> Robot:
     """Return the robot with armature, damping, friction and effort of its joints as exported.
 
-    Joints of massless leaf links get an armature. Changes of values of the description are
-    reported.
+    Joints of massless leaf links get an armature, and joints that move no mass against another.
+    Changes of values of the description are reported.
+
+    Args:
+        structure: The kinematic tree.
+        settings: Settings by joint name, from the user.
+        singular: Joints without an armature that turn against another without moving mass.
+        written: Receives the changes.
     """
     leaves = get_massless_leaves(structure)
     joints = []
     for joint in structure.robot.joints:
         if structure.get_kind(joint) in MOVING:
-            leaf = structure.group[joint.child] in leaves
-            joint = _set_values(joint, settings.get(joint.name), leaf, written)
+            own = settings.get(joint.name)
+            has_armature = structure.group[joint.child] in leaves
+            if joint.name in singular and not _has_armature(joint, own):
+                has_armature = True
+                _report_armature(joint, written)
+            joint = _set_values(joint, own, has_armature, written)
         joints.append(joint)
     return replace(structure.robot, joints=joints)
 
 
+def _has_armature(joint: Joint, settings: JointSettings | None) -> bool:
+    """Tell whether the description or the user gives a joint an armature."""
+    if joint.dynamics is not None and joint.dynamics.armature:
+        return True
+    return settings is not None and bool(settings.armature)
+
+
+def _report_armature(joint: Joint, written: Written) -> None:
+    written.report_loss(
+        "armature",
+        f"joint '{joint.name}' and another turn against each other without moving mass; it has an "
+        f"armature of {LEAF_ARMATURE:g}, without which the simulation may diverge",
+        joint.place,
+        kind="joint",
+        name=joint.name,
+        severity=Severity.INFO,
+    )
+
+
 def _set_values(
-    joint: Joint, settings: JointSettings | None, leaf: bool, written: Written
+    joint: Joint, settings: JointSettings | None, has_armature: bool, written: Written
 ) -> Joint:
     before = joint.dynamics or Dynamics(joint.provenance)
-    after = replace(before, armature=LEAF_ARMATURE) if leaf else before
+    after = replace(before, armature=LEAF_ARMATURE) if has_armature else before
     if settings is None:
         return joint if after is joint.dynamics else replace(joint, dynamics=after)
     chosen = {name: getattr(settings, name) for name in ("armature", "damping", "friction")}

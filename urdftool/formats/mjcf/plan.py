@@ -17,13 +17,15 @@ from ...model.mechanism import Base, Configuration, Frame, JointActuator, Light
 from ...model.pose import compute_norm, get_origin_at
 from ...model.settings import Settings, Value, get_number
 from ..common.base import decide_base
-from ..common.floor import get_robot_origin
+from ..common.base_pose import get_robot_origin
+from ..common.holding_pose import choose_holding_positions
 from ..common.home_positions import choose_home_positions
 from ..common.joint_loads import JointLoad, compute_joint_loads
 from ..common.shape_box import ShapeBoxes
 from ..common.srdf import read_srdf
-from ..common.standing import Ground, measure_ground
+from ..common.standing import measure_ground
 from ..common.standing_pose import choose_standing_positions, report_support
+from ..common.upright import turn_upright
 from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
@@ -95,17 +97,26 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     base = options.base
     free, reason = decide_base(structure, base, virtual_joint, boxes, chosen.values, written)
     positions = chosen.values
+    if free:
+        upright = turn_upright(structure, boxes, positions, written)
+        reason = reason if upright is robot else "it stands on its legs with y up"
+        structure = replace(structure, robot=upright)
     if free or chosen.stands:
         positions = choose_standing_positions(structure, boxes, chosen, written)
+    if free and robot.format != "mjcf":
+        positions = choose_holding_positions(structure, boxes, chosen, positions, written)
     if free and robot.format != "mjcf":  # whose author chose the start
         report_support(structure, boxes, positions, written)
     structure = replace(structure, free=free, reason=reason)
     home = place_home(structure, boxes, positions)
     masses, wrong = compute_inertials(structure, options.fix_inertia, written, force=options.force)
     settings = choose_joint_settings(structure, options)
-    structure = replace(structure, robot=set_joint_values(structure, settings, written))
     ground = measure_ground(structure, boxes, positions, home.pose) if free else None
-    loads = _compute_loads(structure, masses, home, ground)
+    bodies = {name: one.body for name, one in masses.items()}
+    loads = compute_joint_loads(structure, bodies, home.positions, home.pose, ground)
+    singular = {name for name, load in loads.items() if load.is_singular}
+    structure = replace(structure, robot=set_joint_values(structure, settings, singular, written))
+    loads = _add_armatures(structure.robot, loads)
     sites = [
         Frame(joint.provenance, joint.name, joint.child, "site")
         for joint in structure.joints
@@ -122,7 +133,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
         cameras=sensors.cameras,
         closures=plan_closures(structure, written),
         links=[_set_priority(link, robot.format) for link in structure.robot.links],
-        base=None if structure.in_world else _plan_base(robot, home, is_free=free),
+        base=None if structure.in_world else _plan_base(structure.robot, home, is_free=free),
         joint_actuators=actuators,
         exclusions=plan_exclusions(structure, srdf.disabled if srdf else (), options.exclude),
         configurations=_list_configurations(structure, positions, options),
@@ -132,17 +143,14 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     return Plan(name, options, structure, home, masses, boxes, wrong)
 
 
-def _compute_loads(
-    structure: Structure, masses: Mapping[str, LinkInertia], home: Home, ground: Ground | None
-) -> dict[str, JointLoad]:
-    """Compute what each joint moves, with its armature, and holds at home."""
-    bodies = {name: one.body for name, one in masses.items()}
-    loads = compute_joint_loads(structure, bodies, home.positions, home.pose, ground)
-    for joint in structure.robot.joints:
+def _add_armatures(robot: Robot, loads: Mapping[str, JointLoad]) -> dict[str, JointLoad]:
+    """Return what each joint moves, with its armature."""
+    found = dict(loads)
+    for joint in robot.joints:
         load, armature = loads.get(joint.name), joint.dynamics and joint.dynamics.armature
         if load is not None and armature:
-            loads[joint.name] = load.add_armature(armature)
-    return loads
+            found[joint.name] = load.add_armature(armature)
+    return found
 
 
 def _set_efforts(robot: Robot, actuators: list[JointActuator]) -> list[Joint]:

@@ -18,7 +18,7 @@ import numpy as np
 from ...compare.check import Check
 from ...compare.proof import Claims, prove
 from ...compare.rows import GLOBAL_ROWS, ROWS, Row
-from ...mechanics.reference import Mechanics
+from ...mechanics.reference import Array, Mechanics, get_origin_matrix
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import get_limits
 from ...model.load import read_again
@@ -204,7 +204,9 @@ def _compare_compiled(
     yield clean
     configurations = list(_list_configurations(mechanics, compiled))
     yield _check_frames(mechanics, compiled, configurations, declared)
-    yield from _compare_dynamics(mechanics, compiled, configurations, declared)
+    base = expected.base
+    turn = get_origin_matrix(None if base is None else base.origin)[:3, :3]
+    yield from _compare_dynamics(mechanics, compiled, configurations, turn, declared)
     yield _check_centroid(mechanics, compiled, configurations, declared)
     yield _check_efforts(expected, compiled, declared)
     yield check_defaults(compiled, list_copied(robot))
@@ -291,9 +293,10 @@ def _compare_dynamics(
     mechanics: Mechanics,
     compiled: Compiled,
     configurations: list[dict[str, float]],
+    turn: Array,
     declared: DeclaredLosses,
 ) -> Iterator[Check]:
-    """Compare mass matrix and gravity of the joints, with a fixed root."""
+    """Compare mass matrix and gravity of the joints, with a fixed root of a rotation, 3 × 3."""
     inertia = Check("mass matrix", "over all joints, with a fixed root", compiled.tensor_rounding)
     gravity = Check("gravity", "force at every joint that holds the robot", FORCE)
     inertia.is_empty = gravity.is_empty = True
@@ -316,7 +319,7 @@ def _compare_dynamics(
             "the mass matrix",
             known=declared.has_any(*INERTIA, *TORN),
         )
-        force = mechanics.compute_gravity(positions)[present]
+        force = mechanics.compute_gravity(positions, turn)[present]
         bias = compiled.get_gravity([dofs[index] for index in present])
         mass = mechanics.compute_centroid(positions)[0]
         weight = max(float(abs(force).max()), 1e-6 * 9.81 * mass, 0.0) or 1.0

@@ -20,6 +20,7 @@ from ..common.base import decide_base
 from ..common.option import Base
 from ..common.rigid_tree import group_rigid_links
 from ..common.shape_box import ShapeBoxes
+from ..common.upright import turn_upright
 from ..written import Written
 
 _MOVING = frozenset(("revolute", "continuous", "prismatic", "planar", "floating")) | BALL_TYPES
@@ -105,6 +106,8 @@ def make_bodies(robot: Robot, base: Base, virtual_joint: str | None, written: Wr
     """
     root = robot.tree.roots[0]
     free = _is_free(robot, root, base, virtual_joint, written)
+    if free:
+        robot = _turn_upright(robot, written)
     carrier: dict[str, str] = {}
     pose: dict[str, Pose] = {}
     for name in robot.tree.order:
@@ -128,6 +131,12 @@ def _is_free(
     tree = group_rigid_links(robot, is_movable)
     home, _ = start_positions(robot)
     return decide_base(tree, base, virtual_joint, ShapeBoxes(robot), home, written)[0]
+
+
+def _turn_upright(robot: Robot, written: Written) -> Robot:
+    """Return the robot; with a turned base if it stands on its legs with y up only."""
+    home, _ = start_positions(robot)
+    return turn_upright(group_rigid_links(robot, is_movable), ShapeBoxes(robot), home, written)
 
 
 def _choose_massive_base(plan: Bodies, root: Link, written: Written) -> Bodies:

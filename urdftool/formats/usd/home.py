@@ -12,6 +12,7 @@ from ...model.pose import Pose
 from ..common.actuator_config import JointSettings
 from ..common.drive_choice import AUTO, Drive, list_drives
 from ..common.floor import lift_to_floor
+from ..common.holding_pose import choose_holding_positions
 from ..common.home_positions import choose_home_positions
 from ..common.joint_loads import JointLoad, compute_joint_loads
 from ..common.rigid_tree import RigidGroups, group_rigid_links
@@ -80,6 +81,7 @@ def plan_home(
     if bodies.free or chosen.stands:
         positions = choose_standing_positions(tree, boxes, chosen, written)
     if bodies.free:
+        positions = choose_holding_positions(tree, boxes, chosen, positions, written)
         report_support(tree, boxes, positions, written)
         pose = lift_to_floor(tree, boxes, positions, pose)
         ground = measure_ground(tree, boxes, positions, pose)
