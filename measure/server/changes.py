@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import re
@@ -123,7 +124,8 @@ def _get_time() -> float:
 
 
 def measure_memory() -> float:
-    """Return the resident memory of this process [MiB], without that of its children."""
+    """Return the resident memory of this process [MiB] after a collection of garbage."""
+    gc.collect()
     pages = int(Path("/proc/self/statm").read_text("ascii").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
 

@@ -54,7 +54,7 @@ def _list_reports(knowledge: Knowledge, path: str) -> list[tuple[Report, Options
     """Return reports with fixes of the robots that a file belongs to."""
     key = "fixes", path
     if key not in knowledge.memo:
-        robots = knowledge.list_robots(path) or [path]
+        robots = knowledge.list_robots(path) or knowledge.list_reporting_robots(path) or [path]
         found = []
         for robot in robots:
             options = replace(

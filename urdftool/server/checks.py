@@ -124,13 +124,14 @@ class Checks:
         converted = convert_findings(self.knowledge, errors)
         for one in failed:
             converted.setdefault(one.pop("path"), []).append(one)
+        shown = None if findings is None else convert_findings(self.knowledge, findings)
+        state = self.knowledge.states.setdefault(robot, RobotState())
+        state.reported = {*converted, *(state.reported if shown is None else shown)}
         self._emit(
             {
                 "robot": robot,
                 "errors": converted,
-                "findings": None
-                if findings is None
-                else convert_findings(self.knowledge, findings),
+                "findings": shown,
                 "files": sorted({robot, *reads.files}),
             }
         )

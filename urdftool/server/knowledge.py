@@ -46,11 +46,13 @@ class RobotState:
         descriptions: Description and robot of each set of arguments; the last that could be read.
         files: Resolved paths of its files.
         version: Number of changes of documents after which it was read.
+        reported: Resolved paths of the files with a finding of the last check, such as its SRDF.
     """
 
     descriptions: list[tuple[Description, Robot]] = field(default_factory=list)
     files: set[str] = field(default_factory=set)
     version: int = -1
+    reported: set[str] = field(default_factory=set)
 
 
 class Knowledge:
@@ -199,6 +201,11 @@ class Knowledge:
         ]
         found.sort(key=lambda robot: not self.is_open(robot))
         return [*([real] if real in repository.robots else []), *found[:MOST_ROBOTS]]
+
+    def list_reporting_robots(self, path: str) -> list[str]:
+        """Return the resolved paths of the robots with a finding in a file, such as an SRDF."""
+        real = os.path.realpath(path)
+        return [robot for robot, state in self.states.items() if real in state.reported]
 
     def _get_files(self, robot: str) -> set[str]:
         state = self.states.get(robot)
