@@ -1,6 +1,7 @@
 """The extension of VS Code: what it starts exists; it builds where its packages are installed."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -12,6 +13,7 @@ from urdftool import __version__, cli
 
 FOLDER = ROOT / "editors" / "vscode"
 PACKAGE = json.loads((FOLDER / "package.json").read_text("utf-8"))
+NPM = shutil.which("npm")  # tests see few programs
 SOURCE = "\n".join(path.read_text("utf-8") for path in sorted((FOLDER / "src").glob("*.ts")))
 
 
@@ -43,10 +45,11 @@ def test_it_has_the_version_of_the_tool():
 @pytest.mark.slow
 @pytest.mark.parametrize("script", ["build", "test"])
 def test_it_builds(script):
-    if shutil.which("npm") is None:
+    if NPM is None:
         pytest.skip("it needs npm")
     if not (FOLDER / "node_modules").is_dir():
         pytest.skip("it needs the packages of 'npm ci' in editors/vscode")
-    words = ["npm", "run", "--silent", script]
-    done = subprocess.run(words, cwd=FOLDER, capture_output=True, text=True)
+    variables = {**os.environ, "PATH": os.pathsep.join((os.path.dirname(NPM), "/usr/bin", "/bin"))}
+    words = [NPM, "run", "--silent", script]
+    done = subprocess.run(words, cwd=FOLDER, env=variables, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
