@@ -7,12 +7,13 @@ import tempfile
 from pathlib import Path
 
 from .run import measure_mjcf
+from .sdf import measure_sdf
 
 
 def main() -> int:
     """Print a row for each addition; return 1 if one is neither kept nor reported."""
     with tempfile.TemporaryDirectory() as name:
-        results = list(measure_mjcf(Path(name)))
+        results = [*measure_mjcf(Path(name)), *measure_sdf(Path(name))]
     for result in results:
         print(f"| {result.what} | {result.verdict} | {', '.join(result.codes)} |")
     lost = sum(result.verdict.startswith(("lost", "proof")) for result in results)

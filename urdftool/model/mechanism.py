@@ -204,10 +204,11 @@ class NativeElement(Part):
     """Element of a format that a writer of the same format copies, with what compiles from it.
 
     Attributes:
-        section: Tag of the section that contains it; ``default``; or empty for attributes of a part
-            that the robot has.
+        section: Tag of the section that contains it; ``default``; empty for attributes of a part
+            that the robot has; in SDF ``model``, or ``link`` or ``joint`` with its name.
         tag: Its tag.
         attributes: Its attributes as written.
+        text: Its text.
         children: Its child elements.
         values: Values that the format's library computes of it, by name.
     """
@@ -215,6 +216,7 @@ class NativeElement(Part):
     section: str = ""
     tag: str = ""
     attributes: dict[str, str] = field(default_factory=dict)
+    text: str = ""
     children: list[NativeElement] = field(default_factory=list)
     values: dict[str, tuple[float, ...]] = field(default_factory=dict)
 

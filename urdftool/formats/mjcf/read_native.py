@@ -135,7 +135,7 @@ def _make_native(context: Context, section: str, element: Element) -> NativeElem
     attributes = element.attributes
     if section in MERGED:  # its values name no file, and the text for MuJoCo lacks some
         attributes = context.expanded.get_element_at(_get_line(element)).attributes
-    return NativeElement(written, section, element.tag, dict(attributes), children)
+    return NativeElement(written, section, element.tag, dict(attributes), children=children)
 
 
 def _prune(context: Context, element: Element) -> NativeElement | None:
@@ -150,7 +150,7 @@ def _prune(context: Context, element: Element) -> NativeElement | None:
     if not children and not element.get("class"):
         return None
     written = _get_place(context, element)
-    return NativeElement(written, "default", "default", dict(element.attributes), children)
+    return NativeElement(written, "default", "default", dict(element.attributes), "", children)
 
 
 def _list_parts(context: Context, text: _Text) -> Iterator[NativeElement]:

@@ -17,6 +17,7 @@ from .frames import add_frames
 from .joints import add_joint
 from .links import link
 from .names import get_model_name
+from .native import add_native
 from .plan import WORLD, get_links
 from .plugins import add_plugin
 from .pose import set_origin
@@ -58,7 +59,9 @@ def _name_canonical(node: Node, t: Translation) -> None:
 
 def _set_whole(node: Node, t: Translation) -> None:
     """Set whether the model is static, and its pose."""
-    write_settings(node, t.robot.settings, [row for row in OF_ROBOT if row.name == "static"])
+    in_blocks = t.robot.format == "urdf"  # whose other elements are copied
+    rows = [row for row in OF_ROBOT if row.name == "static" or not in_blocks]
+    write_settings(node, t.robot.settings, rows)
     origin = find_model_origin(t.robot)
     if origin is not None:
         set_origin(node, origin, exact=t.options.is_at_least("1.9"))
@@ -75,6 +78,7 @@ def _add_parts(node: Node, t: Translation) -> None:
         elif element.tag not in ("pose", "static", "canonicalBody"):
             copy_raw_element(node, t, element)
     add_body_sensors(node, t)
+    add_native(node, t)
     _report_dangling(t)
 
 

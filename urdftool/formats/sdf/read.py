@@ -31,6 +31,7 @@ from .read_joints import (
 )
 from .read_links import Context, read_link
 from .read_models import Models
+from .read_native import add_native
 from .read_scope import Scope, read_own_pose
 
 
@@ -69,8 +70,10 @@ def read(
     robot.settings = read_sdf_settings(top.element, OF_ROBOT)
     robot.source = Description(str(path), Document(file, root, []), models.files, finder)
     robot.source.gltf_up = "z"  # Gazebo keeps the axes of the file
-    _fill(Context(robot, losses, file.path), top)
+    context = Context(robot, losses, file.path)
+    _fill(context, top)
     _add_plugins(robot, top)
+    add_native(context, top)
     found = losses.make_findings()
     robot.unread = found
     return Reading(robot, found)

@@ -85,7 +85,7 @@ def read_link(context: Context, scope: Scope, prefix: str, element: Element) -> 
     return link
 
 
-def _compute_pose(
+def compute_part_pose(
     context: Context, scope: Scope, prefix: str, link: Element, part: Element
 ) -> Pose:
     """Return the pose of a part in the shifted frame of its link."""
@@ -109,7 +109,7 @@ def _read_inertial(context: Context, scope: Scope, prefix: str, link: Element) -
         return None
     if element.find_child("fluid_added_mass") is not None:
         context.record_loss("added-mass", "added mass of a fluid is not read", link)
-    origin = get_origin_at(_compute_pose(context, scope, prefix, link, element), written)
+    origin = get_origin_at(compute_part_pose(context, scope, prefix, link, element), written)
     tensor = element.find_child("inertia")
     values = {name: number(tensor, name, value) for name, value in _TENSOR.items()}
     at = written if tensor is None else Written(tensor.place)
@@ -123,7 +123,7 @@ def _read_visual(
     if geometry is None:
         return []
     written = Written(element.place)
-    origin = get_origin_at(_compute_pose(context, scope, prefix, link, element) @ turn, written)
+    origin = get_origin_at(compute_part_pose(context, scope, prefix, link, element) @ turn, written)
     material, script = read_material(context.robot, element)
     visual = Visual(written, element.get("name"), origin, geometry, material)
     visual.appearance, visual.script = read_sdf_appearance(element), script
@@ -143,7 +143,7 @@ def _read_collision(
     if geometry is None:
         return []
     written = Written(element.place)
-    origin = get_origin_at(_compute_pose(context, scope, prefix, link, element) @ turn, written)
+    origin = get_origin_at(compute_part_pose(context, scope, prefix, link, element) @ turn, written)
     surface = read_sdf_settings(element, SURFACE)
     return [Collision(written, element.get("name"), origin, geometry, surface)]
 
@@ -210,7 +210,7 @@ def _read_mesh(context: Context, element: Element, written: Written) -> Geometry
 def _add_sensor(
     context: Context, scope: Scope, prefix: str, link: Element, element: Element
 ) -> None:
-    pose = _compute_pose(context, scope, prefix, link, element)
+    pose = compute_part_pose(context, scope, prefix, link, element)
     owner, written = prefix + (link.get("name") or ""), Written(element.place, element)
     add_parts(context.robot, read_sensor(element, pose, link=owner, provenance=written))
 

@@ -21,7 +21,6 @@ from ..common.force_fallbacks import (
     report_tree_defects,
 )
 from ..common.missing_files import create_missing_mesh
-from ..common.unexpressed import report_unexpressed
 from ..defects import FATAL as STRUCTURAL
 from ..defects import Refused, make_defect, refuse
 from ..written import Written
@@ -30,6 +29,7 @@ from .joint_settings import choose_joint_settings
 from .mesh_files import MeshFiles, find_meshes
 from .model import add_model
 from .names import get_model_name, make_names
+from .native import report_uncopied
 from .options import MODEL, Options
 from .plan import ROUNDING, Plan, get_excess, make_plan
 from .translation import Translation
@@ -72,7 +72,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
     written.losses += decided.losses
-    report_unexpressed(robot, written, expressed=("base", "joint-spring"))
+    report_uncopied(robot, written)
     settings = choose_joint_settings(robot, options, written)
     t = Translation(robot, options, plan, names, meshes, written, settings)
     root = _build_root(options)

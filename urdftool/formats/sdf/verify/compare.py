@@ -52,7 +52,10 @@ ROWS = tuple(
 
 COMPARED_AS_ELEMENTS = tuple(
     f"unread-{tag}"
-    for tag in ("light", "projector", "particle_emitter", "battery", "audio_source", "plugin")
+    for tag in (
+        *("light", "projector", "particle_emitter", "battery", "audio_source", "plugin"),
+        *("gripper", "element", "look"),
+    )
 )
 """Codes of what the reader does not read, and the rows below those of the robot compare."""
 
