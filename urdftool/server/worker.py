@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import traceback
 from collections.abc import Callable
@@ -23,6 +24,7 @@ def serve() -> None:
     Standard output is kept for answers: what a library prints goes to standard error.
     """
     begin()
+    gc.disable()  # ``run`` collects after each answer, so that memory stays as it is
     answers = os.dup(1)
     os.dup2(2, 1)
     Worker(Inbox(0), lambda data: _write(answers, data)).run()
@@ -52,6 +54,7 @@ class Worker:
         try:
             while True:
                 self._send_answer(self.inbox.take())
+                gc.collect()
         except (Closed, BrokenPipeError):
             return
 
