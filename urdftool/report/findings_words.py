@@ -109,7 +109,7 @@ def _name_lines(
     outcome: Outcome, rules: Iterable[str], readers: Sequence[str], shown: int = 3
 ) -> str:
     """Name rules with the line of their first finding, of those that affect the readers if any."""
-    findings = sorted(outcome.findings, key=lambda found: not _affects(found, readers))
+    findings = sorted(outcome.findings, key=lambda found: not _has_effect_in(found, readers))
     places = {
         f.code: f"{os.path.basename(f.location.path)}:{f.location.line}" for f in reversed(findings)
     }
@@ -118,7 +118,7 @@ def _name_lines(
     return ", ".join(names[:shown]) + more
 
 
-def _affects(finding: Finding, readers: Sequence[str]) -> bool:
+def _has_effect_in(finding: Finding, readers: Sequence[str]) -> bool:
     """Tell whether a finding has an effect in one of the readers."""
     named = {reader for key in finding.effects for reader in key.split(", ")}
     return not named.isdisjoint(readers)

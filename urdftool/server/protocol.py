@@ -265,7 +265,7 @@ class RobotServer(LanguageServer):
 
 
 def _is_running(process: int) -> bool:
-    """Tell whether a process exists; where the system cannot tell without harm, it does not."""
+    """Tell whether a process exists; where the system cannot answer without harm, it is False."""
     if os.name != "posix":
         return False
     try:

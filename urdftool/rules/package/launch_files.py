@@ -138,12 +138,12 @@ def _list_modules(node: ast.Import | ast.ImportFrom) -> Iterable[str]:
 
 def _list_optional(node: ast.AST) -> Iterator[ast.AST]:
     """Yield the statements of a ``try`` that catches a failed import."""
-    if isinstance(node, ast.Try) and any(map(_catches_imports, node.handlers)):
+    if isinstance(node, ast.Try) and any(map(_is_import_guard, node.handlers)):
         for statement in node.body:
             yield from ast.walk(statement)
 
 
-def _catches_imports(handler: ast.ExceptHandler) -> bool:
+def _is_import_guard(handler: ast.ExceptHandler) -> bool:
     kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
     names = {kind.id for kind in kinds if isinstance(kind, ast.Name)}
     return None in kinds or not names.isdisjoint(
