@@ -1,5 +1,7 @@
 """An export of an SDF copies sensors, plugins and lights, and reports what it does not copy."""
 
+import pytest
+
 import urdftool as api
 from measure.same_format.sdf import ADDITIONS, BASE, measure_sdf
 
@@ -30,3 +32,14 @@ def test_an_element_keeps_its_pose_when_its_link_is_merged(tmp_path):
     api.export_sdf(api.load(tmp_path / "a.sdf"), out, fixed_joints="lump", verify=True)
     (sensor,) = api.load(out).mounted_sensors
     assert (sensor.link, sensor.origin.xyz) == ("a", (1.0, 0.0, 1.0))
+
+
+@pytest.mark.library("mujoco")
+def test_other_formats_do_not_copy_them(tmp_path):
+    xml = next(xml for _, xml in ADDITIONS if xml.startswith("<light"))
+    (tmp_path / "a.sdf").write_text(BASE.replace("</inertial>", f"</inertial>{xml}", 1))
+    robot = api.load(tmp_path / "a.sdf")
+    written = api.export_mjcf(robot, tmp_path / "m", verify=True)
+    assert "unread-light" in {loss.code for loss in written.losses}
+    made = api.load(next((tmp_path / "m").glob("*.xml")))
+    api.export_sdf(made, tmp_path / "b.sdf", verify=True)

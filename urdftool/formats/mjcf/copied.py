@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from ...finding import Finding
 from ...model.elements import Robot
+from ...model.mechanism import NativeElement
 from ..common.drive_choice import AUTO
 from .options import Options
 from .read_native_table import KINDS
@@ -26,9 +27,14 @@ _UNREAD = {
 """Codes of what the reader leaves out, and an export copies, by section."""
 
 
+def list_native(robot: Robot) -> Sequence[NativeElement]:
+    """Return the elements of MJCF of a robot; those of another format are not for this one."""
+    return robot.native if robot.format == "mjcf" else ()
+
+
 def has_copies(robot: Robot, section: str) -> bool:
     """Tell whether an export copies the elements of a section."""
-    return any(element.section == section for element in robot.native)
+    return any(element.section == section for element in list_native(robot))
 
 
 def has_copied_actuators(robot: Robot, options: Options) -> bool:
@@ -38,15 +44,16 @@ def has_copied_actuators(robot: Robot, options: Options) -> bool:
 
 def list_copied(robot: Robot) -> set[str]:
     """Return the kinds of MuJoCo's model that copied elements of a robot are of."""
-    kinds = {KINDS[e.section][0] for e in robot.native if e.section in KINDS}
-    return kinds | {_PREFIX[e.tag] for e in robot.native if e.tag in _PREFIX and not e.section}
+    native = list_native(robot)
+    kinds = {KINDS[one.section][0] for one in native if one.section in KINDS}
+    return kinds | {_PREFIX[one.tag] for one in native if one.tag in _PREFIX and not one.section}
 
 
 def has_copied_home(robot: Robot, options: Options) -> bool:
     """Tell whether an export copies the key ``home`` of its source."""
     if options.pose or options.state or options.srdf is not None:
         return False
-    return any(e.section == "keyframe" and e.name == "home" for e in robot.native)
+    return any(e.section == "keyframe" and e.name == "home" for e in list_native(robot))
 
 
 def list_uncopied(robot: Robot, unread: Iterable[Finding]) -> Iterator[Finding]:

@@ -14,7 +14,7 @@ from ...model.mechanism import NativeElement
 from ..common.drive_choice import AUTO
 from ..common.naming import get_free_name
 from ..written import Written
-from .copied import has_copied_actuators, has_copied_home, has_copies
+from .copied import has_copied_actuators, has_copied_home, has_copies, list_native
 from .digits import format_numbers_text
 from .options import Options
 from .read_native_table import COPIED, KINDS, MERGED, OBJECTS, REFERENCES
@@ -46,7 +46,7 @@ def add_native(
         written: Receives what is not copied.
     """
     robot = structure.robot
-    if not robot.native:
+    if not list_native(robot):
         return
     names = _collect_names(sections)
     for element in robot.native:

@@ -27,7 +27,7 @@ from ..common.losses import DeclaredLosses, name_links
 from ..reading import Reading
 from ..written import Written
 from .compiled import Compiled, compile_all, copy_export
-from .copied import has_copied_home, list_copied, list_uncopied
+from .copied import has_copied_home, list_copied, list_native, list_uncopied
 from .declared_losses import EFFORT, EXCUSES, INERTIA, TORN
 from .options import Options
 from .read import read
@@ -119,7 +119,7 @@ def verify(
     reading = read(model)
     checks = [*_compare_read(expected, written, reading)]
     declared = DeclaredLosses.from_findings(written.losses)
-    if robot.native:
+    if list_native(robot):
         checks.append(check_native(robot, reading.robot, declared, options))
     checks += _compare_compiled(robot, expected, written, model, options)
     checks.append(

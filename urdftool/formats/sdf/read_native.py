@@ -94,13 +94,18 @@ def _report_unread(context: Context, element: Element, kind: str) -> None:
     """Report the elements below one that the robot does not hold."""
     read = _READ[kind]
     for path, child in _list_leaves(element, ""):
-        if ":" in path or any(path == one or path.startswith(f"{one}/") for one in read):
+        if ":" in path or any(_has_below(one, path) or _has_below(path, one) for one in read):
             continue
         severity = Severity.INFO if kind == "visual" else Severity.WARNING
         code = "look" if kind == "visual" else "element"
         what = "elements for the look are not read" if kind == "visual" else "elements are not read"
         name = f"{path} of <{kind}> {element.get('name') or ''}".strip()
         context.losses.add(code, what, name, child.place, severity)
+
+
+def _has_below(path: str, other: str) -> bool:
+    """Tell whether an element at a path contains that at another, or is it."""
+    return f"{other}/".startswith(f"{path}/")
 
 
 def _list_leaves(element: Element, path: str) -> Iterator[tuple[str, Element]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from ....model.appearance import APPEARANCE
 from ....model.block_elements import list_model_elements, list_part_elements
 from ....model.elements import Joint, Link, Robot
 from ....model.kinematics import link_poses
+from ....model.mechanism import NativeElement
 from ....model.provenance import Written
 from ....model.read import parse_numbers
 from ....model.settings import JOINT_TAGS, LINK_TAGS, LUMPING_TAGS, OF_JOINTS, SURFACE
@@ -117,9 +118,14 @@ def _list_expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
                 yield owner, part.name, element
 
 
+def _get_native(robot: Robot) -> Sequence[NativeElement]:
+    """Return the elements of SDF of a robot."""
+    return robot.native if robot.format == "sdf" else ()
+
+
 def _list_native(pair: Pair) -> Iterator[tuple[str, str, Element]]:
     """Yield the elements of an SDF that are copied, with their owner in the file."""
-    for one in pair.robot.native:
+    for one in _get_native(pair.robot):
         kind, _, name = one.section.partition(" ")
         held = pair.place(name) if kind == "link" else None
         owner = pair.get_joint(name) if kind == "joint" else held[0] if held is not None else ""
@@ -131,7 +137,7 @@ def _list_native(pair: Pair) -> Iterator[tuple[str, str, Element]]:
 def _compare_native(pair: Pair, check: Check) -> None:
     """Compare the poses of copied elements in links that are the same in the file."""
     there = {(one.section, one.tag, one.name): one for one in pair.result.native}
-    for one in pair.robot.native:
+    for one in _get_native(pair.robot):
         other = there.get((one.section, one.tag, one.name))
         if other is None or "pose" not in one.values:
             continue
