@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..finding import Finding
     from ..formats.common.cut import Cut, Cutter
     from ..formats.common.option import Actuators, Base, FixInertia
-    from ..formats.mjcf.options import Exclude
+    from ..formats.mjcf.options import Exclude, Purpose
     from ..formats.sdf.options import ChosenBase, FixedJoints, Target, Uri
 
 
@@ -110,6 +110,7 @@ def export_mjcf(
     actuator_config: str | Path | None = None,
     armature: float | None = None,
     exclude: Exclude = "touching",
+    purpose: Purpose = "",
     fuse: bool = False,
     mesh_dir: str = "assets",
     force: bool = False,
@@ -145,6 +146,9 @@ def export_mjcf(
         armature: Reflected rotor inertia of every joint [kg·m², or kg for a slide joint].
         exclude: Pairs of links that never collide: ``"adjacent"`` excludes links connected by a
             joint, ``"touching"`` also those that overlap in the home position, ``"none"`` none.
+        purpose: ``"rl"`` adds what policies for reinforcement learning need: ``base_sensors``,
+            ``fuse``, sensors of joints, servos in place of motors, armature and friction loss by
+            effort limit, and contacts of feet with condim 6 and priority 1.
         fuse: Whether to merge links fixed to another link into it; their frames become sites.
         mesh_dir: Folder of the meshes, relative to the model.
         force: Whether to continue past errors if a robot remains.
@@ -182,6 +186,7 @@ def export_mjcf(
         "actuator_config": actuator_config,
         "armature": armature,
         "exclude": exclude,
+        "purpose": purpose,
         "fuse": fuse,
         "mesh_dir": mesh_dir,
         "force": force,
@@ -195,7 +200,7 @@ def export_mjcf(
         state=state,
         overlap=measure_overlap,
         proofs=proofs.texts,
-    )
+    ).complete()
     written = mjcf.write(robot, options)
     written.losses += proofs.findings
     written.checks = finish_export(

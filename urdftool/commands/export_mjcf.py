@@ -18,7 +18,7 @@ from .options import add_gltf_option, add_package_options, add_robot_argument, p
 from .read_other import read_any
 
 _GROUPS = {
-    "Output": "output scene mesh_dir overwrite style",
+    "Output": "output purpose scene mesh_dir overwrite style",
     "Robot": "base pose srdf base_sensors exclude fuse keep_locked_joints fix_inertia decompose",
     "Actuators": "actuators timestep actuator_config armature",
     "Verification": "verified strict force",
@@ -52,7 +52,7 @@ def command(
 
     \b
         urdftool export mjcf panda.urdf -o panda/ --scene --verify
-        urdftool export mjcf quadruped.urdf.xacro -o q/ --scene --timestep 0.004
+        urdftool export mjcf quadruped.urdf.xacro -o q/ --scene --for rl
     """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..api.export import make_cutter, measure_overlap
     from ..formats.registry import format_named
@@ -72,7 +72,7 @@ def command(
         state=state,
         overlap=measure_overlap,
         proofs=proofs.texts,
-    )
+    ).complete()
     return run_export(
         console,
         mjcf,

@@ -28,6 +28,7 @@ from ..common.servo_gains import (
 from ..common.standing import Ground
 from ..written import Written
 from .digits import format_numbers_text, number_text
+from .for_rl import replace_motors
 from .joint import get_effort
 from .options import Options
 from .structure import Structure, get_bounds, get_locked_at
@@ -57,6 +58,8 @@ def plan_actuators(
         return [a for a in robot.joint_actuators if kinds.get(a.joint) in SINGLE]
     joints = [j for j in structure.moving if kinds[j.name] in SINGLE and get_locked_at(j) is None]
     drives = list_drives(structure, joints, options.actuators, settings, ground, written)
+    if options.purpose == "rl":
+        drives = list(replace_motors(drives, settings))
     timestep = options.timestep or TIMESTEP
     assumed: dict[str, Gain] = {}
     made = []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal, get_args
 
@@ -26,6 +26,8 @@ from ..common.option import (
 )
 
 Exclude = Literal["touching", "adjacent", "none"]
+
+Purpose = Literal["", "rl"]
 
 Overlap = Callable[[Robot, Mapping[str, float], str, str], float | None]
 """Measures the penetration depth [m] of the authored collision geometry of two links in a pose.
@@ -115,6 +117,17 @@ class Options:
             offered="touching",  # compiles the model to find them
         ),
     )
+    purpose: Purpose = field(
+        default="",
+        metadata=declare(
+            "Complete the model for a purpose: rl adds --base-sensors, --fuse, sensors of joints, "
+            "servos in place of motors, armature and friction loss by effort limit, and contacts "
+            "of feet with condim 6 and priority 1.",
+            words=get_args(Purpose)[1:],
+            flag="for",
+            metavar="PURPOSE",
+        ),
+    )
     fuse: bool = field(
         default=False,
         metadata=declare(
@@ -127,6 +140,12 @@ class Options:
     def __post_init__(self) -> None:
         """Raise ConfigError if a value is not allowed."""
         check_options(self)
+
+    def complete(self) -> Options:
+        """Return the options with those that the purpose switches on."""
+        if self.purpose != "rl":
+            return self
+        return replace(self, base_sensors=True, fuse=True)
 
     @property
     def input_files(self) -> tuple[Path, ...]:

@@ -30,6 +30,12 @@ from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
 from .copied import has_copied_home, has_copies
+from .for_rl import (
+    add_rotors,
+    find_feet,
+    list_joint_sensors,
+    set_foot_contact,
+)
 from .gazebo import USUAL_FRICTION
 from .home import Home, place_home
 from .inertials import compute_inertials
@@ -88,6 +94,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
         ConfigError: The SRDF has no such group state, or the actuator file is invalid.
         ModelError: The robot has no such joint, or it mimics another.
     """
+    is_for_rl = options.purpose == "rl"
     packages = robot.source.packages if robot.source is not None else None
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
     structure = create_structure(robot, keep_locked=options.keep_locked_joints)
@@ -111,10 +118,14 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     home = place_home(structure, boxes, positions)
     masses, wrong = compute_inertials(structure, options.fix_inertia, written, force=options.force)
     settings = choose_joint_settings(structure, options)
+    if is_for_rl:
+        structure = replace(structure, robot=add_rotors(structure, settings, written))
     ground = measure_ground(structure, boxes, positions, home.pose) if free else None
     bodies = {name: one.body for name, one in masses.items()}
     loads = compute_joint_loads(structure, bodies, home.positions, home.pose, ground)
     singular = {name for name, load in loads.items() if load.is_singular}
+    if robot.format == "mjcf":  # whose author chose the armature
+        singular = set()
     structure = replace(structure, robot=set_joint_values(structure, settings, singular, written))
     loads = _add_armatures(structure.robot, loads)
     sites = [
@@ -125,6 +136,11 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     frames = [*sites, *(one for one in robot.frames if one.kind != "body")]
     sensors = plan_sensors(structure, frames, written, base=options.base_sensors)
     actuators = plan_actuators(structure, options, loads, settings, ground, written)
+    feet = find_feet(structure, ground) if is_for_rl else frozenset()
+    if is_for_rl:
+        driven = {actuator.joint for actuator in actuators}
+        sensors.sensors += list_joint_sensors(structure, driven)
+    links = [_set_priority(link, robot.format) for link in structure.robot.links]
     planned = replace(
         structure.robot,
         joints=_set_efforts(structure.robot, actuators),
@@ -132,7 +148,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
         mounted_sensors=sensors.sensors,
         cameras=sensors.cameras,
         closures=plan_closures(structure, written),
-        links=[_set_priority(link, robot.format) for link in structure.robot.links],
+        links=[set_foot_contact(link, feet) for link in links],
         base=None if structure.in_world else _plan_base(structure.robot, home, is_free=free),
         joint_actuators=actuators,
         exclusions=plan_exclusions(structure, srdf.disabled if srdf else (), options.exclude),

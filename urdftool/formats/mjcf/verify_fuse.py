@@ -109,8 +109,8 @@ def compare_fields(
         joints = [c.name("JOINT", int(c.model.actuator_trnid[number][0])) for c in (plain, fused)]
         check.compare(0 if joints[0] == joints[1] else math.inf, f"joint of actuator {number}")
     for number in range(plain.model.nsensor):
-        names = [c.name("SITE", int(c.model.sensor_objid[number])) for c in (plain, fused)]
-        check.compare(0 if names[0] == names[1] else math.inf, f"site of sensor {number}")
+        names = [_name_measured(compiled, number) for compiled in (plain, fused)]
+        check.compare(0 if names[0] == names[1] else math.inf, f"object of sensor {number}")
     for number in range(plain.model.ncam):
         other = fused.get_id("CAMERA", plain.name("CAMERA", number))
         off = math.inf
@@ -187,3 +187,10 @@ def _compute_relative(one: Array, other: Array) -> float:
         return math.inf
     size = max(float(abs(one).max(initial=0.0)), 1e-12)
     return float(abs(one - other).max(initial=0.0)) / size
+
+
+def _name_measured(compiled: Compiled, sensor: int) -> tuple[str, str]:
+    """Return type and name of the object that a sensor measures."""
+    kind = compiled.mujoco.mjtObj(int(compiled.model.sensor_objtype[sensor])).name
+    kind = kind.removeprefix("mjOBJ_")
+    return kind, compiled.name(kind, int(compiled.model.sensor_objid[sensor]))
