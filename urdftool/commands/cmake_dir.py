@@ -6,10 +6,12 @@ from pathlib import Path
 
 import click
 
+from .grouped_help import GroupedCommand
+
 FOLDER = Path(__file__).resolve().parents[1] / "cmake"
 
 
-@click.command("cmake-dir")
+@click.command("cmake-dir", cls=GroupedCommand, groups={})
 def command() -> None:
     """Print the folder of the CMake functions urdftool_expand and urdftool_lint.
 
