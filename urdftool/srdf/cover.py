@@ -48,6 +48,7 @@ class Cover:
         radii: Radii of the bounding spheres, with the inflation [m], shape (k,).
         inflation: Radius around the corners of each piece [m], shape (k,).
         solids: Geometry of FCL of each piece, made on first use.
+        swept: What the pieces sweep about an axis, made on first use.
     """
 
     pieces: tuple[Piece, ...]
@@ -56,6 +57,7 @@ class Cover:
     radii: Array
     inflation: Array
     solids: dict[int, Any] = field(default_factory=dict)
+    swept: dict[bytes, Cover] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Return the number of pieces."""

@@ -12,7 +12,8 @@ import numpy as np
 
 from ..geometry.mesh import Array
 from .chain import place
-from .prove import Outcome, Prover, get_pose_of
+from .divide import Outcome
+from .prove import Prover, get_pose_of
 
 STARTS = 4
 """Poses from which the search starts; chosen, no source."""

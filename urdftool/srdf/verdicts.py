@@ -14,9 +14,10 @@ import numpy as np
 from ..model.elements import Robot
 from ..parallel import count_cores, map_tasks
 from .adjacent import find_adjacent_pairs
-from .body import Body, make_bodies
+from .body import Body, Contacts, make_bodies
 from .chain import Chain, find_chain, place
-from .prove import Outcome, Prover, get_pose_of
+from .divide import Outcome
+from .prove import Prover, get_pose_of
 from .search import search
 from .shapes import LinkShape, read_shapes
 
@@ -253,7 +254,8 @@ def _prove_all(
 def _prove(task: Task, options: Options) -> list[Verdict]:
     """Prove what can be proved of two bodies, and search for contacts of the rest."""
     seed = zlib.crc32(" ".join(map(" ".join, task.names)).encode())
-    prover = Prover(task.chain, task.a, task.b, list(task.pairs), seed)
+    contacts = Contacts(task.a, task.b)
+    prover = Prover(task.chain, (task.a.cover, task.b.cover), list(task.pairs), contacts, seed)
     result = prover.run(options.boxes or BOXES)
     if options.search:
         search(prover, result.outcomes)
