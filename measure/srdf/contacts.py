@@ -35,11 +35,13 @@ class LinkSolids:
     Attributes:
         centers: Centers of spheres that contain them [m], shape (k, 3).
         radii: Radii of the spheres [m], shape (k,).
+        whole: Center and radius of a sphere that contains all of them [m].
         objects: Objects of FCL, with the pose of their shape in the link.
     """
 
     centers: Points
     radii: Array
+    whole: tuple[Array, float]
     objects: list[tuple[Any, Array, Array]]
 
 
@@ -54,7 +56,10 @@ def make_solids(robot: Robot, name: str) -> LinkSolids | None:
         geometry, rotation, translation = make_collider(solid)
         objects.append((fcl.CollisionObject(geometry, fcl.Transform()), rotation, translation))
     centers, radii = zip(*spheres, strict=True)
-    return LinkSolids(np.array(centers), np.array(radii), objects)
+    spots, reach = np.array(centers), np.array(radii)
+    middle = (spots.max(axis=0) + spots.min(axis=0)) / 2
+    whole = middle, float((np.linalg.norm(spots - middle, axis=1) + reach).max())
+    return LinkSolids(spots, reach, whole, objects)
 
 
 def _cover(solid: Solid) -> Iterator[tuple[Array, float]]:
@@ -95,6 +100,23 @@ def _split(corners: Points, parts: int) -> Iterator[tuple[Array, float]]:
 
 
 def measure_gaps(a: LinkSolids, b: LinkSolids, frames: Frames, names: tuple[str, str]) -> Array:
+    """Return a lower bound of the distance of two links at each pose [m], shape (n,).
+
+    It is that of the spheres around both; where these meet, that of the spheres of their parts.
+    """
+    ends = [
+        frames[name][0] @ solids.whole[0] + frames[name][1]
+        for solids, name in zip((a, b), names, strict=True)
+    ]
+    gaps: Array = np.linalg.norm(ends[0] - ends[1], axis=1) - a.whole[1] - b.whole[1]
+    near = np.nonzero(gaps < SLACK)[0]
+    placed = {name: (frames[name][0][near], frames[name][1][near]) for name in names}
+    if len(near):
+        gaps[near] = _measure_parts(a, b, placed, names)
+    return gaps
+
+
+def _measure_parts(a: LinkSolids, b: LinkSolids, frames: Frames, names: tuple[str, str]) -> Array:
     """Return the smallest distance of the spheres of two links at each pose [m], shape (n,)."""
     spots = []
     for solids, name in ((a, names[0]), (b, names[1])):
