@@ -11,7 +11,7 @@ from tests.conftest import FIXTURES
 from urdftool.api.load import load
 from urdftool.srdf.chain import place
 from urdftool.srdf.cover import Piece, make_cover, make_hull
-from urdftool.srdf.divide import Divider
+from urdftool.srdf.divide import Divider, Outcome
 from urdftool.srdf.separate import get_poses
 from urdftool.srdf.sweep import list_simpler, sweep_cover
 from urdftool.srdf.verdicts import Options, list_tasks
@@ -133,8 +133,8 @@ def list_proofs(write, text):
     [task] = list_tasks(load(write("r.urdf", text)), Options())
     proofs = []
     for chain, covers in list_simpler(task.chain, (task.a.cover, task.b.cover)):
-        divider = Divider(chain, covers, list(task.pairs))
-        divider.divide(divider.make_first(), 2000)
+        divider = Divider(chain, covers, {task.pairs[0]: Outcome()})
+        divider.divide(2000, 2000)
         proofs.append(divider.outcomes[task.pairs[0]].is_free)
     return proofs
 

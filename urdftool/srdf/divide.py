@@ -34,6 +34,10 @@ HOPELESS = 8.0
 """The proof stops if it would use so many times its budget at the same pace; chosen, no source."""
 
 
+Pair = tuple[int, int]
+"""Indices of a link of A and one of B."""
+
+
 @dataclass
 class Outcome:
     """What is known of two links.
@@ -79,17 +83,19 @@ class Boxes:
 class Divider:
     """Proof for two bodies that looks for no contact."""
 
-    def __init__(self, chain: Chain, covers: Covers, pairs: list[tuple[int, int]]) -> None:
+    def __init__(self, chain: Chain, covers: Covers, outcomes: dict[Pair, Outcome]) -> None:
         """Store the bodies.
 
         Args:
             chain: Joints between them.
             covers: Covers of both.
-            pairs: Indices of the links to compare.
+            outcomes: What is known of the links to compare, by their indices; other proofs of the
+                same links may share it.
         """
-        self.chain, self.covers, self.pairs = chain, covers, pairs
-        self.outcomes = {pair: Outcome() for pair in pairs}
-        self.boxes = 0
+        self.chain, self.covers, self.pairs = chain, covers, list(outcomes)
+        self.outcomes = outcomes
+        self.boxes, self.check = 0, CHECKED
+        pairs = self.pairs
         links = [int(cover.owner.max(initial=0)) + 1 for cover in covers]
         number = -np.ones(links, dtype=np.int64)
         for index, pair in enumerate(pairs):
@@ -100,23 +106,34 @@ class Divider:
         self.columns = tuple(step.column for step in chain.steps)
         self.lower = np.array([c.lower for c in chain.coordinates])
         self.upper = np.array([c.upper for c in chain.coordinates])
+        self.stack = [self._make_first()]
 
-    def divide(self, whole: Boxes, budget: int) -> None:
-        """Divide a box until nothing is left, the budget is used, or no proof is in sight."""
-        stack, begin, check = [whole], self.boxes, CHECKED
-        while stack and self.boxes - begin < budget:
-            boxes = self.advance(_take(stack))
+    def divide(self, count: int, budget: int) -> bool:
+        """Divide some boxes; return whether more of them may decide more pairs.
+
+        Args:
+            count: Number of boxes.
+            budget: Number of boxes in all calls, after which the proof would end.
+        """
+        end = min(self.boxes + count, budget)
+        hopeless = False
+        while self.stack and not hopeless and self.boxes < end and self.list_open().any():
+            boxes = self._advance(_take(self.stack))
             if len(boxes):
-                stack.append(boxes)
-            used = self.boxes - begin
-            if used >= check:
-                check *= 2
-                done = 1.0 - sum(map(self._measure_volume, stack))
-                if done * HOPELESS * budget < used:
-                    break
-        self.mark_free(stack)
+                self.stack.append(boxes)
+            hopeless = self._is_hopeless(budget)
+        self._mark_free()
+        return not hopeless and self.boxes < budget and bool(self.list_open().any())
 
-    def make_first(self) -> Boxes:
+    def _is_hopeless(self, budget: int) -> bool:
+        """Tell whether the proof would need far more boxes than its budget at the same pace."""
+        if self.boxes < self.check:
+            return False
+        self.check *= 2
+        done = 1.0 - sum(map(self._measure_volume, self.stack))
+        return done * HOPELESS * budget < self.boxes
+
+    def _make_first(self) -> Boxes:
         """Return the box of all joint values, with all pairs of pieces."""
         center, half = (self.lower + self.upper) / 2, (self.upper - self.lower) / 2
         half = half * (1 + 1e-12) + 1e-12
@@ -134,7 +151,7 @@ class Divider:
         outcomes = [self.outcomes[pair] for pair in self.pairs]
         return np.array([one.witness is None and not one.is_free for one in outcomes])
 
-    def advance(self, boxes: Boxes) -> Boxes:
+    def _advance(self, boxes: Boxes) -> Boxes:
         """Look at boxes, and return the halves of those that are not free."""
         c = boxes.candidates
         c = c.choose(np.nonzero(self.list_open()[self.pair_of[c.one, c.other]])[0])
@@ -159,11 +176,13 @@ class Divider:
         np.minimum.at(depth, group, slack + needed[rows])
         np.maximum.at(moves, group, needed[rows])
         depth, moves = depth.reshape(shape), moves.reshape(shape)
-        undecided = self._examine(boxes, placed, depth, moves)
+        undecided = self._find_undecided(boxes, placed, depth, moves)
         left = rows[undecided.reshape(-1)[group]]
         return self._halve(boxes, c.choose(left), moving.choose_shares())
 
-    def _examine(self, boxes: Boxes, placed: Placement, depth: Array, motion: Array) -> np.ndarray:
+    def _find_undecided(
+        self, boxes: Boxes, placed: Placement, depth: Array, motion: Array
+    ) -> np.ndarray:
         """Return which boxes are undecided for which pairs, shape (n, pairs).
 
         Args:
@@ -199,15 +218,15 @@ class Divider:
             both,
         )
 
-    def mark_free(self, stack: list[Boxes]) -> None:
+    def _mark_free(self) -> None:
         """Mark the pairs that no box has left as free."""
         left = np.zeros(len(self.pairs), dtype=bool)
-        for boxes in stack:
+        for boxes in self.stack:
             c = boxes.candidates
             left[self.pair_of[c.one, c.other]] = True
-        for index, pair in enumerate(self.pairs):
+        for pair, is_left in zip(self.pairs, left, strict=True):
             outcome = self.outcomes[pair]
-            outcome.is_free = outcome.witness is None and not left[index]
+            outcome.is_free |= outcome.witness is None and not is_left
 
 
 def _number_boxes(candidates: Candidates) -> tuple[np.ndarray, Candidates]:

@@ -6,6 +6,7 @@ motion in a box is small, triangles are asked for their distance.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy as np
 from ..geometry.mesh import Array
 from .body import Contacts
 from .chain import Chain, Placement, place
-from .divide import MARGIN, Boxes, Divider, Outcome
+from .divide import MARGIN, Boxes, Divider, Outcome, Pair
 from .separate import get_poses
 from .sweep import Covers, list_simpler
 
@@ -25,6 +26,12 @@ SAMPLES = 512
 
 ROUNDS, ELITE = 6, 24
 """Rounds of the search around the nearest poses, and how many of them; chosen, no source."""
+
+TURN = 512
+"""Boxes in the first turn of a proof; chosen, no source."""
+
+FASTER = 3
+"""Boxes in a turn of a proof with one joint less, to those of a longer one; chosen, no source."""
 
 SWEPT = 4
 """A proof with swept bodies gets the budget divided by this; chosen, no source."""
@@ -52,7 +59,7 @@ class Prover(Divider):
         self,
         chain: Chain,
         covers: Covers,
-        pairs: list[tuple[int, int]],
+        pairs: Sequence[Pair],
         contacts: Contacts,
         seed: int = 0,
     ) -> None:
@@ -65,33 +72,53 @@ class Prover(Divider):
             contacts: Tests of contact.
             seed: Of the random poses.
         """
-        super().__init__(chain, covers, pairs)
+        super().__init__(chain, covers, {pair: Outcome() for pair in pairs})
         self.contacts = contacts
         self.random = np.random.default_rng(seed)
         self.tests = self.measures = 0
 
     def run(self, budget: int) -> Result:
-        """Sample, and prove until everything is decided or the budget of boxes is used."""
-        whole = self.make_first()
-        if not len(self.advance(whole)):
-            self.mark_free([])
-            return Result(self.outcomes, self.boxes, self.tests)
-        self.sample(SAMPLES if self.chain.coordinates else 1)
-        self._prove_swept(budget // SWEPT)
-        self.divide(whole, budget)
-        return Result(self.outcomes, self.boxes, self.tests)
+        """Sample, and prove until everything is decided or the budget of boxes is used.
 
-    def _prove_swept(self, budget: int) -> None:
-        """Prove pairs with bodies that are swept about the joints at the ends of the chain."""
-        for chain, covers in list_simpler(self.chain, self.covers):
-            left = [pair for pair, one in zip(self.pairs, self.list_open(), strict=True) if one]
-            if not left:
-                return
-            simpler = Divider(chain, covers, left)
-            simpler.divide(simpler.make_first(), budget)
-            self.boxes += simpler.boxes
-            for pair in left:
-                self.outcomes[pair].is_free = simpler.outcomes[pair].is_free
+        The proof with all joints and those with swept bodies take turns, each twice as long as
+        before, so that the fastest of them ends the others.
+        """
+        boxes = 0
+        if self.divide(1, budget):
+            self.sample(SAMPLES if self.chain.coordinates else 1)
+            boxes = self._take_turns(budget)
+        return Result(self.outcomes, self.boxes + boxes, self.tests)
+
+    def _take_turns(self, budget: int) -> int:
+        """Prove pairs by all proofs; return the boxes of those with swept bodies."""
+        count = min(TURN, budget // 2)
+        if not self.divide(count, budget):
+            return 0
+        swept = [Divider(*simpler, self._get_open_outcomes()) for simpler in self._list_simpler()]
+        left, running = list(swept), True
+        while running or left:
+            left = [one for one in left if one.divide(self._scale(one, count), budget // SWEPT)]
+            count *= 2
+            running = running and self.divide(count, budget)
+            if not self.list_open().any():
+                break
+        return sum(proof.boxes for proof in swept)
+
+    def _scale(self, proof: Divider, count: int) -> int:
+        """Return more boxes for a proof with fewer joints, of which fewer boxes are needed."""
+        return count * FASTER ** (len(self.lower) - len(proof.lower))
+
+    def _list_simpler(self) -> Iterator[tuple[Chain, Covers]]:
+        """Yield the proofs with swept bodies."""
+        return list_simpler(self.chain, self.covers)
+
+    def _get_open_outcomes(self) -> dict[Pair, Outcome]:
+        """Return what is known of the pairs that are neither proved nor have a witness."""
+        return {
+            pair: self.outcomes[pair]
+            for pair, is_open in zip(self.pairs, self.list_open(), strict=True)
+            if is_open
+        }
 
     def sample(self, count: int) -> None:
         """Test random poses for contact, then poses around those with the smallest distances.
@@ -150,7 +177,9 @@ class Prover(Divider):
         choice = self.random.integers(0, 4, values.shape)
         return np.where(choice == 0, self.lower, np.where(choice == 1, self.upper, values))
 
-    def _examine(self, boxes: Boxes, placed: Placement, depth: Array, motion: Array) -> np.ndarray:
+    def _find_undecided(
+        self, boxes: Boxes, placed: Placement, depth: Array, motion: Array
+    ) -> np.ndarray:
         """Test the deepest overlaps for contact; measure distances where the motion is small."""
         self._test(boxes.values, placed, depth, TESTS)
         undecided: np.ndarray = np.isfinite(depth)

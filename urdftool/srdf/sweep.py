@@ -1,9 +1,10 @@
 """Bodies swept about the joints at their ends, so that a proof has fewer joints.
 
 The joint next to a body turns it about an axis. All positions of the body are within the surface of
-revolution that its points describe in a full turn. If that does not touch the other body wherever
-the other joints are, no position of the joint needs to be looked at. Most links are nearly round
-about the joints at their ends, so little space is added; where it is too much, nothing is proved.
+revolution that its points describe in a full turn. If that does not touch the other body at any
+position of the other joints, the position of this joint does not matter. Most links are nearly
+round about the joints at their ends, so little space is added; where it is too much, nothing is
+proved.
 """
 
 from __future__ import annotations
