@@ -106,7 +106,8 @@ class Prover(Divider):
 
     def _scale(self, proof: Divider, count: int) -> int:
         """Return more boxes for a proof with fewer joints, of which fewer boxes are needed."""
-        return count * FASTER ** (len(self.lower) - len(proof.lower))
+        factor: int = FASTER ** (len(self.lower) - len(proof.lower))
+        return count * factor
 
     def _list_simpler(self) -> Iterator[tuple[Chain, Covers]]:
         """Yield the proofs with swept bodies."""
