@@ -8,7 +8,7 @@ SOUND  := fixtures/robots/demo_arm/urdf/arm_sound.urdf.xacro
 # tests on every core; a worker without work takes tests of another
 PARALLEL := -n auto --maxprocesses 8 --dist worksteal
 
-.PHONY: demo dev rule check-rule test test-core test-programs test-all check format docs site bench bench-peers fidelity record compare \
+.PHONY: demo dev quick rule check-rule test test-core test-programs test-all check format docs site bench bench-peers fidelity record compare \
   clean
 
 $(BIN)/urdftool: pyproject.toml
@@ -39,6 +39,10 @@ demo: $(BIN)/urdftool
 dev:
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev-core]'
+
+# some 4,000 tests of all parts in less than a minute, in one process; `make test` runs all
+quick:
+	$(BIN)/python -m pytest -q -p no:xdist -m quick
 
 # make rule NAME=heavy-damping FILE=joint/drive: the function and two robots, to be written;
 # make check-rule NAME=heavy-damping: its row in the table, fixtures, page, stated effects

@@ -32,7 +32,7 @@ MENU = {
     "How-to": (
         *("adopting", "editors", "agents", "building"),
         *("howto/two-wheels", "howto/cad-to-simulation"),
-        *("howto/collision-fleet", "howto/classic-to-gz", "howto/mujoco-scene"),
+        *("howto/collision-fleet", "howto/cluster", "howto/classic-to-gz", "howto/mujoco-scene"),
         *("howto/mujoco-to-ros", "howto/moveit-without-ros", "howto/untrusted-input"),
     ),
     "Reference": (

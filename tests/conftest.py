@@ -6,12 +6,14 @@ import shutil
 import signal
 import sys
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 from urdftool import cli, extras
+from urdftool.commands import progress
 
 ROOT = Path(__file__).resolve().parents[1]
 FIXTURES = ROOT / "fixtures"
@@ -24,6 +26,13 @@ settings.load_profile("urdftool")
 # a shell that starts the tests in the background has them pass over it, and what they start, too
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+
+QUICK = frozenset(
+    ROOT / line
+    for line in (ROOT / "tests" / "quick.txt").read_text("utf-8").splitlines()
+    if not line.startswith("#")
+)
+"""Files whose tests have the mark ``quick``."""
 
 MOST_SKIPPED = 70
 """How many tests may be skipped where the corpus and every extra are present."""
@@ -54,13 +63,28 @@ def pytest_sessionfinish(session):
     reporter = session.config.pluginmanager.get_plugin("terminalreporter")
     if reporter is None or hasattr(session.config, "workerinput"):
         return
-    count = len(reporter.stats.get("skipped", []))
-    if skips_too_many(count) and session.exitstatus == pytest.ExitCode.OK:
-        reporter.write_line(f"{count} tests were skipped; {MOST_SKIPPED} may be", red=True)
+    skipped = len(reporter.stats.get("skipped", []))
+    if skips_too_many(skipped) and session.exitstatus == pytest.ExitCode.OK:
+        reporter.write_line(f"{skipped} tests were skipped; {MOST_SKIPPED} may be", red=True)
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
+def is_quick_run(config):
+    """Whether only the quick tests were asked for, so that other files need not be imported."""
+    return config.getoption("markexpr", "") == "quick"
+
+
+def pytest_ignore_collect(collection_path, config):
+    """Leave out the files without quick tests, which takes most of the time of collecting."""
+    if is_quick_run(config) and collection_path.suffix == ".py":
+        return (collection_path not in QUICK) or None
+    return None
+
+
 def pytest_collection_modifyitems(items):
+    for item in items:
+        if item.path in QUICK:
+            item.add_marker(pytest.mark.quick)
     absent = pytest.mark.skip(reason=f"the corpus of real robots is not at {CORPUS}")
     for item in items:
         if "corpus" in item.keywords and not CORPUS.exists():
@@ -93,8 +117,22 @@ def programs(tmp_path_factory):
     return restrict_path(tmp_path_factory.mktemp("programs"), Path(sys.executable).parent)
 
 
+@pytest.fixture(scope="session")
+def cache_folders(tmp_path_factory):
+    """Yield empty folders; ``mktemp`` would list those of all tests before, for each one."""
+    parent = tmp_path_factory.mktemp("caches")
+
+    def make_folders():
+        for number in count():
+            folder = parent / str(number)
+            folder.mkdir()
+            yield folder
+
+    return make_folders()
+
+
 @pytest.fixture(autouse=True)
-def _fresh(monkeypatch, tmp_path_factory, request, programs):
+def _fresh(monkeypatch, cache_folders, request, programs):
     """Nothing that was found in one test is known in the next; no ROS of the machine is seen.
 
     Programs that not every machine has are seen by tests that are marked with them.
@@ -103,7 +141,9 @@ def _fresh(monkeypatch, tmp_path_factory, request, programs):
         monkeypatch.setenv("PATH", programs)
     for name in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "NO_COLOR", "FORCE_COLOR"):
         monkeypatch.delenv(name, raising=False)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+    # a busy machine must not add lines to what a test reads
+    monkeypatch.setattr(progress, "PIPE_PATIENCE", 3600.0)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(next(cache_folders)))
 
 
 @dataclass

@@ -28,7 +28,8 @@ def for_each_module(test):
 
 
 BASE = (
-    *("control_characters", "errors", "extras", "suggestions", "parallel", "landlock", "isolated"),
+    *("control_characters", "errors", "extras", "suggestions", "parallel", "cluster"),
+    *("cluster_child", "landlock", "isolated"),
     *(
         "limited",
         "exchange",
@@ -142,7 +143,7 @@ PLACES = {
     ),
     "coacd": ("collision/coacd_child.py",),
     "fcl": ("srdf/",),
-    "distributed": ("collision/cluster.py",),
+    "distributed": ("cluster.py",),
     "pxr": ("formats/usd/",),
     "newton": ("formats/usd/newton_child.py",),
     "mujoco": ("formats/mjcf/", "simulation/engines/mujoco/"),

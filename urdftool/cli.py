@@ -10,6 +10,7 @@ import gc
 import os
 import sys
 import warnings
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from importlib import import_module
 from typing import Any
@@ -166,10 +167,23 @@ def call(arguments: list[str] | None = None) -> int:
 
         prepare()
     console = Console()
+
+    def run_main() -> Any:
+        return main.main(list(words), prog_name="urdftool", standalone_mode=False, obj=console)
+
+    return report_failures(console, run_main, words)
+
+
+def report_failures(console: Console, action: Callable[[], Any], words: Sequence[str]) -> int:
+    """Call a function, turn every failure into a message, and return the exit code.
+
+    Args:
+        console: Output for messages.
+        action: The function; its result is the exit code if it is a number.
+        words: Command-line arguments, for messages.
+    """
     try:
-        result: Any = main.main(
-            list(words), prog_name="urdftool", standalone_mode=False, obj=console
-        )
+        result = action()
         return result if isinstance(result, int) else 0
     except UrdftoolError as error:
         if console.debug:
@@ -226,7 +240,7 @@ def call(arguments: list[str] | None = None) -> int:
         return 3
 
 
-def _find_command(words: list[str]) -> list[str]:
+def _find_command(words: Sequence[str]) -> list[str]:
     """Return the command name among the command-line arguments, as a list of at most one item."""
     named = [word for word in words if word in COMMANDS]
     return named[:1]

@@ -34,6 +34,7 @@ class Console:
         config: Configuration file named by the user.
         gltf_up: Up axis of glTF meshes; None if not given.
         debug: Whether to print tracebacks.
+        shows_progress: Whether to print progress; a worker does not.
     """
 
     color: str = "auto"
@@ -41,6 +42,7 @@ class Console:
     config: str | None = None
     gltf_up: GltfUp | None = None
     debug: bool = False
+    shows_progress: bool = True
 
     @property
     def quiet(self) -> bool:

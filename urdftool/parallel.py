@@ -42,14 +42,20 @@ class Loss:
 
     Attributes:
         exit_code: Exit code, negative for a signal; None if the time limit ended the worker.
+        reason: What a cluster reports instead; empty for a process of this computer.
     """
 
     exit_code: int | None
+    reason: str = ""
 
     @property
     def timed_out(self) -> bool:
         """Tell whether the time limit ended the worker."""
         return self.exit_code is None
+
+    def describe(self) -> str:
+        """Return what ended the worker, for a message."""
+        return self.reason or ("time limit" if self.timed_out else f"exit code {self.exit_code}")
 
 
 def map_tasks(

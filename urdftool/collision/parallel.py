@@ -56,13 +56,21 @@ def compute_all(
         if progress is not None:
             progress(known_before + done, count, [task.path.name for task in now])
 
+    workers = jobs or count_cores()
     outcomes: Iterator[tuple[int, Outcome]]
     if scheduler is not None and work:
-        from .cluster import run_on_cluster
+        from ..cluster import map_anywhere
+        from .cluster import read_task, simplify_sent
 
-        outcomes = _count_outcomes(run_on_cluster(work, scheduler), work, under_way)
+        outcomes = map_anywhere(
+            simplify_sent,
+            [read_task(task) for task in work],
+            workers=workers,
+            scheduler=scheduler,
+            on_lost=lambda sent, loss: _make_failure(sent[0], loss),
+            on_progress=lambda done, now: under_way(done, [task for task, _ in now]),
+        )
     else:
-        workers = jobs or count_cores()
         # surplus cores are shared among the meshes
         each = partial(try_compute, cores=max(1, workers // max(1, len(work))))
         outcomes = map_tasks(
@@ -83,18 +91,9 @@ def compute_all(
     return {task: found[task] for task in tasks}
 
 
-def _count_outcomes(
-    outcomes: Iterator[tuple[int, Outcome]],
-    tasks: Sequence[Task],
-    under_way: Callable[[int, Sequence[Task]], None],
-) -> Iterator[tuple[int, Outcome]]:
-    """Yield outcomes of a cluster, and report the last one, as work in progress is unknown."""
-    for done, (index, outcome) in enumerate(outcomes, 1):
-        under_way(done, [tasks[index]])
-        yield index, outcome
-
-
-def _make_failure(task: Task, _: Loss) -> Outcome:
+def _make_failure(task: Task, loss: Loss) -> Outcome:
+    if loss.reason:
+        return MeshError(f"the mesh was not simplified: {loss.reason}", path=task.path)
     return MeshError(
         "the process that simplified the mesh was killed twice, probably because memory ran "
         "out; try --method hull for its link",

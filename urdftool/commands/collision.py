@@ -22,6 +22,7 @@ from .options import (
     add_jobs_option,
     add_name_option,
     add_package_options,
+    add_scheduler_option,
     split_arguments,
 )
 from .picture_file import check_picture_name
@@ -112,7 +113,7 @@ _GROUPS = {
     help="Format of the new mesh files.",
 )
 @add_jobs_option
-@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler that runs the computation.")
+@add_scheduler_option
 @add_gltf_option
 @add_package_options
 @click.pass_context

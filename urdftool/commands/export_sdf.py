@@ -11,10 +11,10 @@ import click
 from ..console import Console
 from ..formats.common.option import make_options
 from ..formats.sdf.options import MODEL, Options, get_folder_and_file
+from .export_many import ExportCommand, add_robots_argument
 from .export_options import add_declared_options, add_output_option, make_export_options
-from .grouped_help import GroupedCommand
 from .load_strict import report_gltf_axes
-from .options import add_gltf_option, add_package_options, add_robot_argument
+from .options import add_gltf_option, add_package_options
 from .read_other import read_any
 
 _GROUPS = {
@@ -24,8 +24,8 @@ _GROUPS = {
 }
 
 
-@click.command("sdf", cls=GroupedCommand, groups=_GROUPS)
-@add_robot_argument
+@click.command("sdf", cls=ExportCommand, groups=_GROUPS)
+@add_robots_argument
 @add_output_option(".sdf, .xml or .world")
 @add_declared_options(Options)
 @make_export_options(

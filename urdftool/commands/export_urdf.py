@@ -10,9 +10,9 @@ import click
 from ..console import Console
 from ..formats.common.option import make_options
 from ..formats.urdf.options import Options
+from .export_many import ExportCommand, add_robots_argument
 from .export_options import add_declared_options, add_output_option, make_export_options
-from .grouped_help import GroupedCommand
-from .options import add_gltf_option, add_package_options, add_robot_argument
+from .options import add_gltf_option, add_package_options
 
 _GROUPS = {
     "Output": "output mesh_dir overwrite style",
@@ -28,8 +28,8 @@ _FRAMES = {
 }
 
 
-@click.command("urdf", cls=GroupedCommand, groups=_GROUPS)
-@add_robot_argument
+@click.command("urdf", cls=ExportCommand, groups=_GROUPS)
+@add_robots_argument
 @add_output_option(".urdf")
 @add_declared_options(Options, frames=_FRAMES)
 @make_export_options(

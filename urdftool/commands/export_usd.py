@@ -10,11 +10,11 @@ import click
 from ..console import Console
 from ..formats.common.option import make_options
 from ..formats.usd.options import Options
+from .export_many import ExportCommand, add_robots_argument
 from .export_options import add_declared_options, add_output_option, make_export_options
 from .export_pairs import prove_pairs
-from .grouped_help import GroupedCommand
 from .load_strict import report_gltf_axes
-from .options import add_gltf_option, add_package_options, add_robot_argument, parse_pose
+from .options import add_gltf_option, add_package_options, parse_pose
 from .read_other import read_any
 
 _GROUPS = {
@@ -25,8 +25,8 @@ _GROUPS = {
 }
 
 
-@click.command("usd", cls=GroupedCommand, groups=_GROUPS)
-@add_robot_argument
+@click.command("usd", cls=ExportCommand, groups=_GROUPS)
+@add_robots_argument
 @add_output_option(".usda (text), .usdc (binary) or .usdz (package)")
 @add_declared_options(Options, pose={"multiple": True, "callback": parse_pose})
 @click.option(

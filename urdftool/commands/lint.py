@@ -18,6 +18,7 @@ from .options import (
     add_jobs_option,
     add_name_option,
     add_package_options,
+    add_scheduler_option,
     split_arguments,
 )
 
@@ -33,7 +34,7 @@ _GROUPS = {
     "Rules": "select extend_select ignore target baseline write_baseline",
     "Output": "style whole output_file junit statistics fail_on exit_zero",
     "Input": "no_expand list_robots changed_since watch",
-    "Performance": "jobs",
+    "Performance": "jobs scheduler",
 }
 
 
@@ -110,6 +111,7 @@ _GROUPS = {
 @click.option("--baseline", metavar="FILE", help="Ignore the findings that are listed in FILE.")
 @click.option("--write-baseline", metavar="FILE", help="Write the findings to FILE as a baseline.")
 @add_jobs_option
+@add_scheduler_option
 @add_cache_options
 @click.option("--explain", metavar="RULE", help="Print the documentation of a rule and exit.")
 @click.option(
@@ -154,6 +156,8 @@ def command(console: Console, /, watch: bool, **given: Any) -> int:
         return _check_paths(console, **given)
     from .lint_watch import watch_files
 
+    if given["scheduler"] is not None:
+        raise click.UsageError("--watch does not support --scheduler")
     paths, _ = split_arguments(given["words"])
     return watch_files(
         console, paths, given, lambda check: _check_paths(console, **given, check=check)
@@ -182,6 +186,7 @@ def _check_paths(
     baseline: str | None,
     write_baseline: str | None,
     jobs: int | None,
+    scheduler: str | None,
     cache_dir: str | None,
     no_cache: bool,
     explain: str | None,
@@ -198,7 +203,7 @@ def _check_paths(
     from ..lint.discover import explain_nothing_found
     from ..lint.options import Options
     from ..lint.outcome import Report
-    from ..lint.parallel import check_files
+    from ..lint.parallel import WORTH_IT, check_files
     from ..lint.settings import Settings, check_selectors, check_targets
     from ..lint.skipped import add_skipped_parts, exclude_files
     from ..workspace import Workspace
@@ -210,6 +215,7 @@ def _check_paths(
         select_changed,
         summarize_robots,
     )
+    from .progress import Progress
 
     if explain or list_rules:
         return _show_rules(console, explain, style)
@@ -267,11 +273,19 @@ def _check_paths(
         from .lint_fix import Kinds, fix_files
 
         kinds = Kinds(unsafe_fixes, fix_meshes)
+        if scheduler is not None:
+            raise click.UsageError("--fix and --diff do not support --scheduler")
         return fix_files(
             console, files, options, settings, output, jobs=jobs, kinds=kinds, diff=diff
         )
     belonging = {file for real in found.robots for file in found.list_files(real)}
-    reports = add_skipped_parts((check or check_files)(files, options, jobs), paths, belonging)
+    if scheduler is not None and "-" in files:
+        raise click.UsageError("standard input cannot be checked with --scheduler")
+    with Progress(console, "robots") as progress:
+        shown = progress if scheduler is not None or len(files) >= WORTH_IT else None
+        check_all = check or partial(check_files, scheduler=scheduler, on_progress=shown)
+        checked = check_all(files, options, jobs)
+        reports = list(add_skipped_parts(checked, paths, belonging))
     skipped = [Report(path, skipped=reason) for path, reason in other.skipped.items()]
     skipped += [Report(path, skipped=why, stopped=why) for path, why in other.not_checked.items()]
     return report(console, [*reports, *skipped, *excluded], settings, output)

@@ -195,6 +195,15 @@ def add_jobs_option(function: F) -> F:
     )(function)
 
 
+def add_scheduler_option(function: F) -> F:
+    """Add ``--scheduler``, the address of a Dask scheduler; None for processes of this computer."""
+    return click.option(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="Dask scheduler that runs the computation, instead of -j.",
+    )(function)
+
+
 def add_gltf_option(function: F) -> F:
     """Add ``--gltf-up``, whose value is stored in the :class:`Console`."""
     return click.option(

@@ -38,7 +38,7 @@ class Progress:
         """Start the measurement of time.
 
         Args:
-            console: Console; nothing is shown if it is quiet.
+            console: Console; nothing is shown if it is quiet, or shows no progress.
             what: Name of the counted items, such as ``meshes``.
             patience: Time after which progress is shown [s].
             timed: Show the elapsed time, also between calls.
@@ -46,7 +46,7 @@ class Progress:
         self.what = what
         self.patience = patience
         self.timed = timed
-        self.enabled = not console.quiet
+        self.enabled = console.shows_progress and not console.quiet
         self._is_terminal = sys.stderr.isatty()
         self._begin = monotonic()
         self._next = self._begin + PIPE_PATIENCE

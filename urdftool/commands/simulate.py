@@ -18,7 +18,7 @@ _GROUPS = {
     "Robot and ground": "fixed_base pose height payload self_collision friction slope",
     "Joint control": "hold controllers",
     "Output": "strict style plot picture video junit",
-    "Performance": "time_limit jobs",
+    "Performance": "time_limit jobs scheduler",
 }
 
 
@@ -95,6 +95,8 @@ def command(
     settings = make_settings(values)
     cache = choose_cache_folder("simulate", values["cache_dir"], values["no_cache"])
     paths, arguments = robot
+    if values["scheduler"] and not values["fleet"]:
+        raise click.UsageError("--scheduler requires --fleet")
     if values["fleet"]:
         if outputs.is_requested:
             raise click.UsageError("--plot, --picture and --video do not support --fleet")
@@ -103,7 +105,14 @@ def command(
             frozenset(paths), cache,
         )  # fmt: skip
         with terminate_gracefully():
-            return simulate_fleet(fleet, paths, style=style, junit=junit, jobs=values["jobs"])
+            return simulate_fleet(
+                fleet,
+                paths,
+                style=style,
+                junit=junit,
+                jobs=values["jobs"],
+                scheduler=values["scheduler"],
+            )
     thresholds = read_configured_thresholds(console, paths[0])
     print_old_thresholds(console, paths)
     with (

@@ -53,6 +53,11 @@ _OPTIONS = (
         metavar="N",
         help="With --fleet: number of worker processes.  [default: one per core]",
     ),
+    click.option(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="With --fleet: Dask scheduler that runs the computation, instead of -j.",
+    ),
     *CACHE_OPTIONS,
 )
 

@@ -82,6 +82,7 @@ def simulate_fleet(
     style: str,
     junit: str | None,
     jobs: int | None,
+    scheduler: str | None = None,
 ) -> int:
     """Simulate files and the descriptions in folders, and return the exit code.
 
@@ -91,6 +92,7 @@ def simulate_fleet(
         style: ``text``, ``json`` or ``junit``.
         junit: Additional JUnit XML file; None for none.
         jobs: Number of worker processes; None for one per core.
+        scheduler: Address of a Dask scheduler to use instead; None for none.
 
     Raises:
         OutputError: The JUnit file cannot be written.
@@ -111,7 +113,9 @@ def simulate_fleet(
     limit = len(fleet.engines) * SLOWEST * fleet.settings.time_limit + PATIENCE
     rows = {}
     with Progress(console, "robots") as progress:
-        for row in run_in_parallel(descriptions, fleet, jobs=jobs, limit=limit):
+        for row in run_in_parallel(
+            descriptions, fleet, jobs=jobs, limit=limit, scheduler=scheduler
+        ):
             rows[row.path] = row
             progress(len(rows), len(descriptions), row.path)
     ordered = [rows[path] for path in descriptions]

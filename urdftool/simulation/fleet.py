@@ -8,8 +8,9 @@ from functools import partial
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from ..cluster import map_anywhere
 from ..errors import UrdftoolError
-from ..parallel import Loss, count_cores, make_plain_error, map_tasks
+from ..parallel import Loss, count_cores, make_plain_error
 from .fault import Fault
 
 if TYPE_CHECKING:
@@ -90,6 +91,7 @@ def run_in_parallel(
     *,
     jobs: int | None = None,
     limit: float = PATIENCE,
+    scheduler: str | None = None,
 ) -> Iterator[Row]:
     """Yield a row for each description, in the order in which they finish.
 
@@ -98,10 +100,11 @@ def run_in_parallel(
         work: Function that makes a row; it must be picklable if processes are not forked.
         jobs: Number of processes; None for one per core.
         limit: Time limit of one robot [s].
+        scheduler: Address of a Dask scheduler to use instead of processes.
     """
 
     def lost(path: str, loss: Loss) -> Row:
-        message = f"the worker process of this robot crashed (exit code {loss.exit_code})"
+        message = f"the worker process of this robot crashed ({loss.describe()})"
         if loss.timed_out:
             message = f"was stopped after the time limit of {limit:.0f} s"
         return Row(path, error=UrdftoolError(message, path=path))
@@ -112,10 +115,12 @@ def run_in_parallel(
         for path in running:
             began.setdefault(path, perf_counter())
 
-    for index, row in map_tasks(
+    for index, row in map_anywhere(
         partial(_make_row, work),
         paths,
         workers=jobs or count_cores(),
+        scheduler=scheduler,
+        preload=("urdftool.simulation.verdict",),
         on_lost=lost,
         on_progress=note_begin,
         time_limit=limit,
