@@ -123,6 +123,7 @@ PLACES = {
     "concurrent": (),
     "subprocess": (
         "isolated.py",
+        "cluster.py",
         "limited.py",  # TimeoutExpired
         "source/expansion_process.py",
         "git_command.py",
@@ -624,7 +625,7 @@ def test_listed_readers_of_texts_exist():
 FORMS_WITH_CODE = frozenset(("pickle", "cPickle", "marshal", "shelve", "dill", "joblib"))
 """Libraries whose files may run code when they are read."""
 
-BETWEEN_PROCESSES = ("isolated.py", "parallel.py")
+BETWEEN_PROCESSES = ("isolated.py", "parallel.py", "cluster.py", "cluster_child.py")
 """Modules that pickle what another process of urdftool reads from a pipe."""
 
 

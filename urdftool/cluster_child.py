@@ -20,13 +20,10 @@ def serve() -> None:
     ignore_interrupts()
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is not an answer
-    questions = os.fdopen(os.dup(0), "rb")
-    with open(os.devnull, "rb") as nothing:
-        os.dup2(nothing.fileno(), 0)
     jobs: dict[bytes, Job] = {}
     while True:
         try:
-            sent, task = pickle.load(questions)
+            sent, task = pickle.load(sys.stdin.buffer)
         except EOFError:
             os._exit(0)  # a library may crash while it is unloaded
         answer = pickle.dumps(_run(jobs, sent, task))
