@@ -215,3 +215,16 @@ def test_the_action_installs_what_it_comes_with(tmp_path, monkeypatch, write):
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("urdftool ")
     assert runner.run(LINT).returncode == 1
+
+
+def test_the_release_workflow_is_as_github_has_it():
+    schema = json.loads(
+        (files("check_jsonschema") / "builtin_schemas/vendor/github-workflows.json").read_text()
+    )
+    workflow = yaml.safe_load((ROOT / ".github/workflows/release.yml").read_text("utf-8"))
+    workflow["on"] = workflow.pop(True)  # YAML 1.1 reads the word as true
+    jsonschema.validate(workflow, schema)
+    assert workflow["permissions"] == {}
+    for job in workflow["jobs"].values():
+        assert set(job["permissions"].values()) <= {"read", "write"}
+    assert workflow["jobs"]["publish"]["permissions"] == {"id-token": "write"}
