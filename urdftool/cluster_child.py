@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import pickle
 import sys
@@ -18,6 +19,7 @@ from .parallel import Loss, ignore_interrupts, make_picklable, map_tasks
 def serve() -> None:
     """Run the tasks that come on standard input until it ends, and send their outcomes."""
     ignore_interrupts()
+    gc.set_threshold(500_000, 50, 50)  # as in cli.run
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is not an answer
     jobs: dict[bytes, Job] = {}
