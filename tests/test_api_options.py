@@ -76,7 +76,7 @@ PYTHON = {
     "simplify_collisions": {"robot", "settings", "jobs", "output"},
 }
 COMMAND = {
-    "simulate": {"fleet", "junit", "no_cache", "plot", "strict", "video"},
+    "simulate": {"fleet", "junit", "no_cache", "plot", "scheduler", "strict", "video"},
     "verify": set(),
     "simplify_collisions": {"check", "in_place", "scheduler", "spheres_file"},
 }

@@ -170,4 +170,5 @@ def test_the_wheel_brings_them(tmp_path):
         "share/bash-completion/completions/urdftool",
         "share/zsh/site-functions/_urdftool",
         "share/fish/vendor_completions.d/urdftool.fish",
+        *(f"share/urdftool/cmake/{file.name}" for file in (ROOT / "urdftool/cmake").iterdir()),
     }

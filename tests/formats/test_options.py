@@ -19,6 +19,7 @@ OF_COMMANDS = {
     *("robot", "named", "output", "package", "package_path", "gltf_up"),
     *("overwrite", "strict", "verified", "style"),
     *("debug", "quiet", "verbose", "trust"),  # of every command
+    *("jobs", "scheduler"),  # of several robots
     *("isaaclab", "isaaclab_version"),  # a configuration of Isaac Lab, beside the stage
 }
 OF_FUNCTIONS = {
