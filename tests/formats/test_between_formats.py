@@ -121,3 +121,23 @@ def test_usd_is_written_from_every_format(urdftool, write, tmp_path):
     path = write("m.sdf", SDF_TYPO)
     result = urdftool("export", "usd", path, "-o", tmp_path / "m.usda", "--verify")
     assert result.code == 0, result.err
+
+
+SLIDER = """<sdf version="1.9"><model name="m">{}<link name="a"><visual name="v"><geometry>
+<box><size>1 1 1</size></box></geometry><material><diffuse>0 1 0 1</diffuse></material></visual>
+</link><link name="b"/><joint name="j" type="prismatic"><parent>a</parent><child>b</child>
+<axis><xyz>0 0 1</xyz></axis></joint></model></sdf>"""
+
+
+@pytest.mark.parametrize("static", ["", "<static>true</static>"])
+def test_static_models_and_ambient_light_in_urdf(tmp_path, static):
+    (tmp_path / "a.sdf").write_text(SLIDER.format(static))
+    written = api.export_urdf(api.load(tmp_path / "a.sdf"), tmp_path / "u", verify=True)
+    assert [check.name for check in written.checks if check.verdict == "differs"] == []
+    assert "lossy-appearance" in {loss.code for loss in written.losses}
+
+
+def test_a_slide_without_limits_compiles(tmp_path):
+    (tmp_path / "a.sdf").write_text(SLIDER.format(""))
+    written = api.export_mjcf(api.load(tmp_path / "a.sdf"), tmp_path / "m", verify=True)
+    assert "inheritrange" not in written.text

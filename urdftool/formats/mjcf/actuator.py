@@ -7,6 +7,7 @@ overrides them. Position servos are critically damped for the inertia that the j
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -112,7 +113,7 @@ def _plan_actuator(
             if chosen.force is not None:
                 made = replace(made, force_range=(-chosen.force, chosen.force))
         limits = get_bounds(joint)
-        bounds = limits if limits is not None and limits[0] < limits[1] else None
+        bounds = limits if limits is not None and _is_range(*limits) else None
         ratio = 1.0 if settings.kd is None else None
         bias = (0.0, -gain, -(settings.kd or 0.0))
         return replace(made, gain=gain, bias=bias, damping_ratio=ratio, control_range=bounds)
@@ -128,6 +129,11 @@ def _plan_actuator(
         return replace(made, gain=gain, bias=(0.0, 0.0, -gain), control_range=bounds)
     bound = effort / abs(drive.reduction) if effort else 0.0
     return replace(made, gear=drive.reduction, control_range=(-bound, bound) if bound else None)
+
+
+def _is_range(lower: float, upper: float) -> bool:
+    """Tell whether two limits are those of a range; MuJoCo has none that is infinite."""
+    return lower < upper and math.isfinite(lower) and math.isfinite(upper)
 
 
 def _build_element(actuator: JointActuator, joint: Joint) -> etree._Element:

@@ -18,7 +18,7 @@ def add_settings(t: Translation) -> None:
     """Add a block for each link and joint with settings; those of a URDF were copied with it."""
     if t.robot.xml is not None:
         return
-    _add_block(t, t.robot, None, t.robot.settings, [r for r in OF_ROBOT if r.name != "static"])
+    _add_block(t, t.robot, None, t.robot.settings, OF_ROBOT)
     for link in t.robot.links:
         _add_block(t, link, t.names.links[link.name], link.settings, OF_LINKS)
         _add_block(t, link, t.names.links[link.name], _find_common(t, link), SURFACE)

@@ -66,6 +66,8 @@ def add_shape(
 def _report_looks(robot: Robot, written: Written, link: Link, shape: Visual) -> None:
     """Report lights and transparency, which plain URDF does not have; blocks of URDF are copied."""
     lost = [name.replace("_", " ") for name in shape.appearance if name != "diffuse"]
+    if robot.format == "sdf" and shape.material is not None and "ambient" not in lost:
+        lost.append("ambient")  # black in SDF where none is written, the color in URDF
     if lost and robot.format != "urdf":
         text = f"{', '.join(lost)} of a visual of link '{link.name}' are dropped; URDF has a color"
         written.report_loss(
