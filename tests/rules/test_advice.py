@@ -309,7 +309,7 @@ def test_a_joint_that_is_not_driven_where_others_are_needs_no_effort(
         ("1000", "is 1000 rad/s, in effect no limit"),
         ("1e10", "is 1e+10 rad/s, in effect no limit"),
         ("3.4e38", "is 3.4e+38 rad/s, in effect no limit"),
-        ("180", "is 180 rad/s, above 100"),
+        ("280", "is 280 rad/s, above 200"),
     ],
 )
 def test_a_velocity_that_means_no_limit_is_called_so(write, velocity, words):

@@ -365,3 +365,73 @@ def test_a_damaged_file_says_what_is_in_it(tmp_path, urdftool, text, line, colum
     shown = result.out + result.err
     assert f"r.urdf:{line}:{column}: " in shown
     assert said in shown
+
+
+@pytest.mark.parametrize(("use", "level"), [("$(arg dir)", "INFO"), ("${dir}", "ERROR")])
+def test_a_part_with_arguments_of_another_file_is_no_error(tmp_path, use, level):
+    write(tmp_path, {"tool.urdf": mesh(f"{use}/a.stl")})
+    found = find(tmp_path / "tool.urdf", "unexpanded-expression")
+    assert [severity for _, severity, _ in found] == [level]
+
+
+@pytest.mark.parametrize(("value", "count"), [("0", 0), ("0.5", 1)])
+def test_an_unknown_attribute_of_zero_has_no_effect(tmp_path, value, count):
+    joint = (
+        '<joint name="j" type="continuous"><parent link="a"/><child link="b"/>'
+        f'<dynamics damping="1" friction="1" spring_stiffness="{value}"/></joint>'
+    )
+    write(tmp_path, {"r.urdf": f'<robot name="r"><link name="a"/><link name="b"/>{joint}</robot>'})
+    assert len(find(tmp_path / "r.urdf", "unknown-attribute")) == count
+
+
+@pytest.mark.parametrize(("kind", "count"), [("fixed", 0), ("continuous", 1)])
+def test_a_sticker_may_be_light(tmp_path, kind, count):
+    sticker = MASS.replace('"1"', '"3.6e-06"') + f"<visual>{BOX}</visual>"
+    joint = f'<joint name="j" type="{kind}"><parent link="a"/><child link="b"/></joint>'
+    links = f'<link name="a">{MASS}</link><link name="b">{sticker.replace(".1", ".00001")}</link>'
+    write(tmp_path, {"r.urdf": f'<robot name="r">{links}{joint}</robot>'})
+    found = find(tmp_path / "r.urdf", "implausible-mass", "implausible-density")
+    assert len(found) == count
+
+
+@pytest.mark.parametrize(("material", "count"), [("", 1), ('<material name="m"/>', 0)])
+def test_colors_that_a_material_replaces_are_not_missed(tmp_path, material, count):
+    obj = "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    text = mesh("a.obj").replace("</visual>", f"{material}</visual>")
+    write(tmp_path, {"r.urdf": text, "a.obj": obj})
+    assert len(find(tmp_path / "r.urdf", "missing-mesh-dependency")) == count
+
+
+@pytest.mark.parametrize(("mass", "count"), [("0", 0), ("1", 1)])
+def test_the_marker_of_a_goal_needs_no_collision(tmp_path, mass, count):
+    inertial = MASS.replace('"1"', f'"{mass}"')
+    text = f'<robot name="r"><link name="a">{inertial}<visual>{BOX}</visual></link></robot>'
+    write(tmp_path, {"r.urdf": text})
+    assert len(find(tmp_path / "r.urdf", "missing-collision")) == count
+
+
+def test_advice_does_not_repeat_the_origin_that_is_there(tmp_path):
+    """The meshes of visual and collision have different frames, and both origins are equal."""
+    corners = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
+    files = {
+        name: "".join(f"v {x / 5 + dx} {y / 5} {z / 5}\n" for x, y, z in corners)
+        + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+        for name, dx in (("see.obj", 0.0), ("touch.obj", 0.9))
+    }
+    inertial = MASS.replace("<mass", '<origin xyz="0.1 0.1 0.1"/><mass')
+    parts = "".join(
+        f'<{part}><geometry><mesh filename="{name}"/></geometry></{part}>'
+        for part, name in zip(("visual", "collision"), files, strict=True)
+    )
+    link = f'<link name="a">{inertial}{parts}</link>'
+    write(tmp_path, {**files, "r.urdf": f'<robot name="r">{link}</robot>'})
+    ((_, _, message),) = find(tmp_path / "r.urdf", "collision-off-visual")
+    assert "check its mesh and <origin>" in message
+
+
+@pytest.mark.parametrize(("targets", "severity"), [(["gz"], "INFO"), (["gz", "ros2"], "WARNING")])
+def test_a_frame_of_tf_is_for_ros(tmp_path, targets, severity):
+    sensor = '<gazebo reference="a"><sensor name="s" type="imu"/></gazebo>'
+    write(tmp_path, {"r.urdf": f'<robot name="r"><link name="a">{MASS}</link>{sensor}</robot>'})
+    found = find(tmp_path / "r.urdf", "missing-gz-frame-id", targets=targets)
+    assert [level for _, level, _ in found] == [severity]

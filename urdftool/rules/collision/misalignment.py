@@ -61,7 +61,7 @@ class Misalignment(NamedTuple):
         """The remedy for the misplaced one."""
         if self.same:
             return f"copy the <origin> of the {self.other}"
-        return f'write xyz="{self.xyz_text}"' if self.xyz_text else "check its <origin>"
+        return f'write xyz="{self.xyz_text}"' if self.xyz_text else "check its mesh and <origin>"
 
     @property
     def xyz_text(self) -> str:
@@ -143,6 +143,8 @@ def compare_places(robot: Robot, link: Link, part: float) -> Misalignment | None
             step = [-part for part in step]
         x, y, z = (a + b for a, b in zip(wrong.translation, step, strict=True))
         xyz = right.translation if right.rotation == wrong.rotation else (x, y, z)
+        if xyz == wrong.translation:
+            xyz = None  # both have this origin: the frames of the mesh files differ
     same = xyz is not None and _is_same(link.visuals[0].geometry, link.collisions[0].geometry)
     return Misalignment(distance, alike, odd, why, xyz, same)
 

@@ -56,9 +56,12 @@ def missing_collision(
     Not reported are links that the collision of a link fixed to them covers, that rotate inside
     the collision of their parent body, or that slide along a rail that goes through them. Links of
     at most ``smallest`` [m], which mark frames, links named virtual or dummy, and those with fully
-    transparent visuals are skipped. Links smaller than ``small`` [m], and those inside the
+    transparent visuals are skipped, and so is a single link without mass, such as the marker of a
+    goal. Links smaller than ``small`` [m], and those inside the
     bounding box of their rigid body's collisions, are an info.
     """
+    if len(robot.links) == 1 and not robot.links[0].mass:
+        return  # a marker, such as a goal
     seen = [link for link in robot.links if _compute_visual_size(link) > smallest]
     ghosts = [link for link in seen if not link.collisions and not _is_invisible(robot, link)]
     sizes = _compute_sizes(robot, ghosts)

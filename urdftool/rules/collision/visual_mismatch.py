@@ -72,9 +72,10 @@ def visual_mesh_as_collision(
     primitives or simplified meshes.
 
     A mesh with more than ``dense`` triangles is a warning. An STL or OBJ file with fewer than
-    ``least`` is as simple as one made for contact, and not reported. One finding names all links
-    with dense meshes, and one counts the others; a ``<collision>`` with the attribute ``concave``,
-    of which PyBullet keeps the triangles, is a finding of its own.
+    ``least`` is as simple as one made for contact, and not reported, nor is a file that is not
+    read. One finding names all links with dense meshes, and one counts the others; a
+    ``<collision>`` with the attribute ``concave``, of which PyBullet keeps the triangles, is a
+    finding of its own.
     """
     seen: dict[str, set[str]] = {}
     plain, heavy = [], []
@@ -87,7 +88,7 @@ def visual_mesh_as_collision(
         faces = count_faces(use) if use.exists else 0
         if faces > dense:
             heavy.append((use, faces))
-        elif faces > dense / 10 or (faces == 0 and not _is_small(use, least)):
+        elif faces > dense / 10 or (faces == 0 and use.exists and not _is_small(use, least)):
             plain.append(use)
     named = {use.link.name for use, _ in heavy}
     plain = [use for use in plain if use.link.name not in named]

@@ -30,7 +30,7 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import ERROR, GAZEBO, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..rule import ERROR, GAZEBO, INFO, ROS, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import find_nearest, split_words, suggest_name
 from .lumping import get_lumped_body
 
@@ -188,7 +188,9 @@ def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
         "gz": "stamps the data with the scoped name of the sensor, which is not a TF frame",
     },
 )
-def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
+def missing_gz_frame_id(
+    robot: Robot, targets: frozenset[str], *, together: float = 4
+) -> Iterator[Problem]:
     """A sensor has no ``<gz_frame_id>``.
 
     New Gazebo then uses a frame with the names of model, link and sensor, which does not exist in
@@ -196,12 +198,14 @@ def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Proble
     frame that the sensor's plugin names, such as the optical frame of a camera, otherwise the link
     of the sensor. If the sensor has a ``<pose>``, write a link that is fixed at that pose, or add
     one: with the link of the sensor its data would be displaced. More than ``together`` sensors of
-    a kind are one finding.
+    a kind are one finding. Without ROS among the targets it is an info, and sensors for which no
+    link exists are not reported, because nobody may read their data with TF.
     """
+    severity = INFO if targets.isdisjoint(ROS) else None
     for sensor in find_sensors_without_frame(robot):
         if sensor.named is not None and sensor.frame is None:
             yield _report_unknown_frame(sensor, sensor.named.text.strip())
-    for placed in (True, False):
+    for placed in (True, False) if severity is None else (True,):
         found = [
             one
             for one in find_sensors_without_frame(robot)
@@ -224,7 +228,7 @@ def missing_gz_frame_id(robot: Robot, *, together: float = 4) -> Iterator[Proble
                 of_plugin = f", as <{sensor.named.tag}> of its plugin" if sensor.named else ""
                 what = f"{name} has no <gz_frame_id>; write {frame}{of_plugin}{where}"
                 data["frame"] = sensor.frame.name
-            yield Problem(sensor.sensor.element, what, data=data)
+            yield Problem(sensor.sensor.element, what, data=data, severity=severity)
 
 
 def _report_unknown_frame(one: SensorWithoutFrame, name: str) -> Problem:

@@ -216,7 +216,7 @@ def implausible_mass(
 
     Masses are in kilograms; a mass in grams makes the link a thousand times too heavy. The limits
     are one metric ton and 10 mg. Frames without geometry may be lighter, because simulators
-    require a mass even for them.
+    require a mass even for them, and so may stickers on links of ten times their mass.
     """
     reach = get_extents(robot)
     for link, mass, place in _get_masses(robot):
@@ -228,6 +228,8 @@ def implausible_mass(
         if mass > heaviest:
             what = f"{mass:g} kg; if the unit is grams, write {mass / 1000:g}"
         elif 0 < mass < lightest and (link.visuals or link.collisions):
+            if sum(other.mass for other, _ in reach.get_attached(link)[1:]) >= 10 * mass:
+                continue  # a sticker
             what = f"{mass:g} kg, less than {lightest * 1e6:g} mg; check the unit (kg)"
         else:
             continue

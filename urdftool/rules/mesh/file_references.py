@@ -8,7 +8,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from ...geometry.reference_patterns import INIT_FROM, MTLLIB, URI
-from ...model.elements import Robot
+from ...model.elements import Robot, Visual
 from ...source.description import Description
 from ...workspace import Workspace, memoize_by_workspace
 from ..rule import INFO, URDF_AND_SDF, WARNING, Problem, rule
@@ -36,7 +36,8 @@ def missing_mesh_dependency(
 
     An OBJ file has its colors in an MTL file, a COLLADA file its textures and a glTF file its
     buffers in separate files, which are easily left behind when a mesh is copied. Without colors
-    or textures a mesh keeps its shape, which is an info; without its buffers it has no shape.
+    or textures a mesh keeps its shape, which is an info; without its buffers it has no shape. An
+    MTL file is not missed if the visual has a material of its own.
     More than ``together`` such meshes are one finding.
     """
     seen: set[str] = set()
@@ -46,6 +47,8 @@ def missing_mesh_dependency(
             continue
         seen.add(use.uri)
         missing = _find_missing(use.workspace, use.path)
+        if _has_color(use) and all(name.lower().endswith(".mtl") for name in missing):
+            continue
         if missing:
             found.append((use, missing))
     several = len(found) > together
@@ -59,6 +62,11 @@ def missing_mesh_dependency(
             severity=None if any(_has_shape(name) for one in named for name in one) else INFO,
             data={"uri": use.uri, "names": list(missing)},
         )
+
+
+def _has_color(use: MeshUse) -> bool:
+    """Tell whether a visual has a material, which counts instead of those of its mesh."""
+    return isinstance(use.shape, Visual) and use.shape.material is not None
 
 
 def _has_shape(name: str) -> bool:

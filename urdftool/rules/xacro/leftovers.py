@@ -17,7 +17,7 @@ from ..fix import (
     substitute_text,
     unsafe,
 )
-from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
+from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from .definitions import get_definitions
 
@@ -42,7 +42,8 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
     Either ``$`` is missing before a brace (``{prefix}``), or ``$${…}`` is an escape, or the file
     with ``${…}`` is not expanded. The text itself becomes the name, the number or the reference, so
     names do not match, without a message. A URDF with many of them is a xacro file without
-    ``xmlns:xacro``; this is one finding.
+    ``xmlns:xacro``; this is one finding. A file that uses arguments with ``$(arg …)`` and declares
+    none is a part that another file includes, which is an info.
     """
     root = description.document.root
     found = [item for element in root.walk() for item in _find_expressions(element)]
@@ -54,7 +55,10 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
             others = "place" if len(found) == 2 else "places"
             more = f" (and in {len(found) - 1} other {others})" if len(found) > 1 else ""
             braced = _BRACED.search(text)
-            if braced and "${" not in text and "$(" not in text:
+            part = _is_part(root, [text for _, text, _ in found])
+            if part:
+                remedy = "its argument is declared in the file that includes this one: check that"
+            elif braced and "${" not in text and "$(" not in text:
                 remedy = f"write the value of '{braced[0]}'"
             else:
                 remedy = (
@@ -66,7 +70,7 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 element,
                 f"'{_shorten(text)}' is not expanded{more}; {remedy}",
                 at=place,
-                severity=WARNING if meant else None,
+                severity=INFO if part else WARNING if meant else None,
                 effects=_select_effects(element),
             )
         return
@@ -95,6 +99,12 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 data={"name": braced[1]},
                 effects=_select_effects(element),
             )
+
+
+def _is_part(root: Element, texts: list[str]) -> bool:
+    """Tell whether a file uses arguments of xacro, and declares none."""
+    declares = any(element.tag.rpartition(":")[2] == "arg" for element in root.walk())
+    return not declares and all("$(arg " in text for text in texts)
 
 
 def _select_effects(element: Element) -> tuple[str, ...]:

@@ -250,8 +250,8 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     """An attribute is not in URDF for this element.
 
     Readers ignore it without a message, and take the default of the intended attribute: a
-    misspelled ``uper`` makes the upper limit 0, and a cylinder with ``height`` has no length. A
-    zero rotation of an ``<axis>`` is not reported, because it has no effect. An attribute for a
+    misspelled ``uper`` makes the upper limit 0, and a cylinder with ``height`` has no length. An
+    unknown attribute whose value is 0 is not reported, because it has no effect. An attribute for a
     different program is an info if the element has all required attributes, such as an additional
     parameter of a ``<dynamics>`` or a ``<limit>``.
     """
@@ -266,7 +266,7 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
             strange = [
                 n
                 for n in _iterate_unknown_attributes(element, known)
-                if _is_unsuggested(element, n)
+                if _is_unsuggested(element, n) and number(element.get(n)) != 0
             ]
             for severity in (WARNING, INFO):
                 is_info = severity is INFO
