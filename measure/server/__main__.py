@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from .changes import measure_changes
+from .changes import EDITS, measure_changes
 from .definitions import measure_definitions
 from .page import format_changes, format_definitions, write_page
 from .robots import CORPUS
@@ -20,6 +20,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--missed", action="store_true", help="list what was not found")
+    parser.add_argument("--edits", type=int, default=EDITS, help="edits of each robot")
     parser.add_argument("what", nargs="*", choices=["definitions", "changes", []])
     options = parser.parse_args()
     if not CORPUS.exists():
@@ -33,7 +34,7 @@ def main() -> int:
         if options.missed:
             print(*found.missed, sep="\n", file=sys.stderr)
     if "changes" in what:
-        parts["changes"] = format_changes(measure_changes())
+        parts["changes"] = format_changes(measure_changes(options.edits))
     print("\n\n".join("\n".join(lines) for lines in parts.values()))
     if options.write:
         write_page(parts)

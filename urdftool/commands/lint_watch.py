@@ -27,7 +27,7 @@ _OTHER_WORK = {
     "list_robots": "--list",
     "changed_since": "--changed-since",
 }
-_MOST_NAMES = 3
+_MOST_NAMES = 3  # robots that a line lists; chosen, no source
 
 
 def watch_files(
