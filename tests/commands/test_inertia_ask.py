@@ -119,6 +119,7 @@ def test_progress_in_a_pipe_is_a_line_every_few_seconds(monkeypatch, capfd):
 
     now = [0.0]
     monkeypatch.setattr(module, "monotonic", lambda: now[0])
+    monkeypatch.setattr(module, "PIPE_PATIENCE", 2.0)  # which tests do not see otherwise
     monkeypatch.setattr("sys.stderr.isatty", lambda: False, raising=False)
     with module.Progress(Console(), "meshes") as progress:
         for second in range(12):
