@@ -28,8 +28,8 @@ SAMPLED = """\
 Random poses of all joints within their limits, uniform, and a directed search on each proved
 pair: Powell's method on the distance of FCL, from the random poses at which the spheres around
 parts of the links are nearest. The poses of the links are computed by another program than that
-of the proof, in `measure/`, and contacts are those of FCL. The number of poses is what the
-processor time allowed; it is not a million on any robot. *Contacts* are of proved pairs.
+of the proof, in `measure/`, and contacts are those of FCL. The number of poses was a
+million, or what the processor time allowed. *Contacts* are of proved pairs.
 """
 
 MOVEIT = """\
@@ -48,7 +48,8 @@ BOXES = """\
 All proofs of a robot, with each pair of convex pieces that was cleared in a box: coal finds their
 distance at the center of the box and at a random one of its corners, with the poses of another
 program. The boxes in which two pieces were cleared fill all joint positions; the last column is
-the least part that they fill. A disagreement is a contact of more than 0.1 mm.
+the least part that they fill. A disagreement is a contact of more than 0.1 mm. These proofs are those
+with all joints; that swept links contain the links is the subject of `tests/srdf/test_sweep.py`.
 """
 
 
