@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..lint.repository import Repository
     from ..workspace import Workspace
 
-_MOST_NAMES = 5
+_MOST_NAMES = 5  # robots that a line names; chosen, no source
 
 
 def find_repository(paths: Sequence[str], options: Options) -> Repository:
