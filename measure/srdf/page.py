@@ -48,8 +48,8 @@ BOXES = """\
 All proofs of a robot, with each pair of convex pieces that was cleared in a box: coal finds their
 distance at the center of the box and at a random one of its corners, with the poses of another
 program. The boxes in which two pieces were cleared fill all joint positions; the last column is
-the least part that they fill. A disagreement is a contact of more than 0.1 mm. These proofs are those
-with all joints; that swept links contain the links is the subject of `tests/srdf/test_sweep.py`.
+the least part that they fill. A disagreement is a contact of more than 0.1 mm. These are the proofs
+with all joints; `tests/srdf/test_sweep.py` tests that swept links contain the links.
 """
 
 
