@@ -36,7 +36,7 @@ COVERED = {
 
 NOT_REPORTED = {
     "effort and velocity of a `<limit>` exchanged": "the values of a small fast drive look the "
-    "same; a velocity above 100 rad/s is `implausible-velocity`",
+    "same; a velocity above 200 rad/s is `implausible-velocity`",
     "limits of ±3.1416 on a joint that turns further": "the file does not say how far the drive "
     "turns; compare with the data sheet",
     "a part that touches nothing": "sensors and casters are often mounted on parts without "

@@ -54,7 +54,8 @@ of them. The collections contain test files of parsers and steps of lessons; the
 11235 counted true findings there as noise (23 of 35), earlier readers did not. The samples
 "packages" are of 48 robots, at most four of each of 15 packages of PyPI that no test uses, drawn
 with seed 4711; one reader looked the elements up in the files, or judged by the message where the
-reason says so, and ran a reader only where the reason says so. Rules were changed after them.
+reason names it, and ran a simulator only where the reason names the run. Rules were changed
+later.
 """
 VERDICTS = ("useful", "noise", "wrong")
 

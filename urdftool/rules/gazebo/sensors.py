@@ -199,7 +199,7 @@ def missing_gz_frame_id(
     of the sensor. If the sensor has a ``<pose>``, write a link that is fixed at that pose, or add
     one: with the link of the sensor its data would be displaced. More than ``together`` sensors of
     a kind are one finding. Without ROS among the targets it is an info, and sensors for which no
-    link exists are not reported, because nobody may read their data with TF.
+    link exists are not reported, because no reader may need TF for their data.
     """
     severity = INFO if targets.isdisjoint(ROS) else None
     for sensor in find_sensors_without_frame(robot):
