@@ -82,7 +82,7 @@ OF_PROCESSES = {
 OTHERS = {
     *("lint/baseline.py", "lint/cache.py", "lint/discover.py", "lint/group.py", "lint/moot.py"),
     *("lint/changes.py", "lint/launches.py", "lint/robot_search.py"),
-    *("lint/settings.py", "lint/skipped.py", "lint/stale.py", "lint/variants.py"),
+    *("lint/settings.py", "lint/skipped.py", "lint/stale.py", "lint/variants.py", "lint/watch.py"),
     "model/files.py",
 }
 # Those that open what `Workspace.materialize` gave.

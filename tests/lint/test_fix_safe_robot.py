@@ -25,7 +25,9 @@ STATED = {
                              ("simulator data", "gazebo[chassis] added")},
     "plugin-class-mismatch": {("simulator data", "plugin")},
     "ros2-control-nested": {("simulator data", "removed"), ("simulator data", "added")},
+    "unknown-element": {("colors", "color of visual")},
     "unprefixed-hardware-interface": {("simulator data", "joint[swing]/hardwareInterface")},
+    "wrong-arity": {("colors", "color of visual")},
     "wrong-case-keyword": {("tree", "type")},
 }  # fmt: skip
 

@@ -57,7 +57,7 @@ def test_statistics_count_groups_and_their_places(write, urdftool):
 
 
 def test_one_alone_is_reported_as_before(write, urdftool):
-    path = write("r.urdf", robot("a"))
+    path = write("r.urdf", robot("a", inside='<link name="b"/>'))
     (found,) = lint_json(urdftool, path, *ONLY)["findings"]
     assert found["message"].startswith("link 'a' has a visual but no collision")
     assert "group" not in found

@@ -31,7 +31,11 @@ OTHER_BLOCK = """<ros2_control name="b" type="system"><joint name="left">
         ("dangling-reference/bad", (), {"name": "chasis", "suggestion": "chassis"}),
         ("bad-extension-number/bad", (), {}),
         ("bad-extension-number/bad_suffix", (), {"write": "1.0"}),
-        ("missing-gz-frame-id/bad_own_pose", ("gz",), {"sensors": ["front"], "link": "mast"}),
+        (
+            "missing-gz-frame-id/bad_own_pose",
+            ("gz", "ros2"),
+            {"sensors": ["front"], "link": "mast"},
+        ),
         (
             "missing-gz-frame-id/bad_pose_of_link",
             ("gz",),

@@ -16,7 +16,7 @@ def messages(tmp_path, inside, rule):
 
 
 def test_attributes_nobody_reads_are_one_finding_of_all_their_elements(tmp_path):
-    inside = '<dynamics D="1" damping="0.1" K="7000" mu_coulomb="0"/>'
+    inside = '<dynamics D="1" damping="0.1" K="7000" mu_coulomb="2"/>'
     assert messages(tmp_path, inside, "unknown-attribute") == [
         (
             5,

@@ -68,7 +68,7 @@ class Watch:
             jobs: Not used: few robots change at a time.
         """
         for path in paths:
-            variants = options.variants.get(os.path.realpath(path))
+            variants = options.variants.get(options.workspace.resolve_links(path))
             known = self._known.get(path)
             if known is None or known.variants != variants or _list_changed(known.stamps):
                 known = self._known[path] = self._check(path, options, variants)
