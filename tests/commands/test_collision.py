@@ -272,6 +272,7 @@ def test_a_check_of_nothing_is_no_pass(urdftool, write):
     assert "selected links" in done.err
 
 
+@pytest.mark.slow
 def test_a_part_beyond_the_error_is_said_with_what_helps(urdftool, write):
     open_sphere = noisy("sphere", (0.1,), noise=0.0)
     half = open_sphere[1][(open_sphere[0][open_sphere[1]][:, :, 2] > 0).all(axis=1)]

@@ -86,6 +86,7 @@ def bodies(count):
                 np.concatenate([l_profile()[1], l_profile()[1] + 12]),
             ),
             id="two at an edge",
+            marks=pytest.mark.slow,
         ),
         pytest.param(
             (

@@ -254,6 +254,7 @@ def test_a_mesh_that_cannot_be_cut_stays_whole(write, mesh):
     assert any("it took too long" in loss.message for loss in written.losses)
 
 
+@pytest.mark.slow
 def test_decompose_of_the_command(urdftool, write, mesh, tmp_path):
     pytest.importorskip("coacd")
     pytest.importorskip("mujoco")
