@@ -24,8 +24,12 @@ def block(language):
     return text
 
 
+FIRST = []
+"""Folders that come first in PATH."""
+
+
 def run(*words):
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    path = os.pathsep.join([*FIRST, str(Path(sys.executable).parent), os.environ["PATH"]])
     return subprocess.run(
         words, capture_output=True, text=True, env={**os.environ, "PATH": path}, check=False
     )
@@ -236,9 +240,7 @@ def test_cmake_finds_the_functions_next_to_the_program_in_path(cmake, urdftool, 
     program = Path("prefix/bin/urdftool")
     program.write_text(f"#!{sys.executable}\nfrom urdftool.cli import run\nrun()\n")
     program.chmod(0o755)
-    monkeypatch.setenv(
-        "PATH", os.pathsep.join([str(program.parent.absolute()), os.environ["PATH"]])
-    )
+    monkeypatch.setattr(sys.modules[__name__], "FIRST", [str(program.parent.absolute())])
     done = cmake("find_package(urdftool REQUIRED)\nmessage(STATUS ${URDFTOOL_EXECUTABLE})", "-DA=1")
     assert done.returncode == 0, done.stderr
     assert str(program.absolute()) in done.stdout
