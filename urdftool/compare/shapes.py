@@ -26,7 +26,7 @@ from ..model.elements import (
     Visual,
 )
 from ..model.gltf_axes import is_gltf
-from ..model.materials import find_gazebo_material, find_shown_material
+from ..model.materials import UNCOLORED, find_gazebo_material, find_shown_material
 from ..model.shapes import get_shape_name
 from .bodies import Bodies, Body
 from .difference import Comparison, Difference
@@ -37,10 +37,6 @@ from .pair import Match, Pair, add_presence, locate
 from .settings import compare_surfaces
 
 Rgba = tuple[float, ...]
-
-
-_UNCOLORED = {"mjcf": (0.5, 0.5, 0.5, 1.0)}
-"""What a reader finds as color of a visual without one, by format; MuJoCo's XML reference."""
 
 
 class Placed(NamedTuple):
@@ -394,7 +390,7 @@ def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
         return False
     colors = [None if one is None else one.color for one in shown]
     plain = [
-        one is None or one == _UNCOLORED.get(robot.format)
+        one is None or one == UNCOLORED.get(robot.format)
         for robot, one in zip(robots, colors, strict=True)
     ]
     if None in colors and all(plain):

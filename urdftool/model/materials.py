@@ -6,6 +6,9 @@ from .elements import Link, Material, Robot, Visual
 from .gazebo_colors import COLORS
 from .settings import get_number
 
+UNCOLORED = {"mjcf": (0.5, 0.5, 0.5, 1.0)}
+"""What a reader finds as color of a visual without one, by format; MuJoCo's XML reference."""
+
 
 class Materials:
     """The materials of a robot's visuals, by name.

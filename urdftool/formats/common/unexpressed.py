@@ -98,15 +98,15 @@ def report_unknown_colors(robot: Robot, written: Written) -> None:
             script = find_unknown_script(link, visual)
             if script and script not in scripts:
                 why = f"material '{script}' of link '{link.name}' is a script of Gazebo"
-                _report_color(written, script, why, visual, shown)
+                _report_color(written, ("link", link.name), why, visual, shown)
             elif shown is None and not script and material is not None and material.name:
                 why = f"material '{material.name}' is not defined"
-                _report_color(written, material.name, why, visual, shown)
+                _report_color(written, ("material", material.name), why, visual, shown)
             scripts.add(script)
 
 
 def _report_color(
-    written: Written, name: str, why: str, visual: Visual, shown: Material | None
+    written: Written, part: tuple[str, str], why: str, visual: Visual, shown: Material | None
 ) -> None:
     """Report a material whose color is unknown, and what is written for it."""
     kept = "the visual has no color"
@@ -117,7 +117,7 @@ def _report_color(
     severity = Severity.WARNING if shown is None else Severity.INFO
     place = visual.place if visual.material is None else visual.material.place
     written.report_loss(
-        "material", f"{why}; {kept}", place, kind="material", name=name, severity=severity
+        "material", f"{why}; {kept}", place, kind=part[0], name=part[1], severity=severity
     )
 
 

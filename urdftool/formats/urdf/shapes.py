@@ -22,7 +22,7 @@ from ...model.elements import (
     Sphere,
     Visual,
 )
-from ...model.materials import resolve_material
+from ...model.materials import UNCOLORED, resolve_material
 from ...model.pose import Pose, get_origin_at, make_pose
 from ...model.shapes import get_shape_name
 from ..written import Written
@@ -120,6 +120,8 @@ def _add_material(
     full = resolve_material(robot, material)
     color, texture = (None, None) if full is None else (full.color, full.texture)
     place = None if texture is None else meshes.get_place(texture)
+    if color == UNCOLORED.get(robot.format) and not material.name:
+        color = None
     if color is None and place is None:
         return
     name = material.name or "rgba_" + "_".join(f"{part:.4g}" for part in color or ())
