@@ -80,7 +80,7 @@ def get_dependencies(workspace: Workspace, folder: Path) -> set[str]:
 
 
 def parse_own_manifest(context: FixContext) -> Document | None:
-    """Parse the package.xml of the description's package; None if there is no such."""
+    """Parse the package.xml of the description's package; None without one."""
     own = context.description.packages.own
     found = (
         read_optional_document(context.workspace, own[1] / "package.xml")
