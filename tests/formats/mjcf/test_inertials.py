@@ -147,3 +147,40 @@ def test_negative_mass_is_refused(write):
     text = INERTIAL.replace('value="1"', 'value="-1"')
     with pytest.raises(Refused, match=r"mass of link .* is negative \(-1 kg\)"):
         export(write("r.urdf", robot(link("a", text))))
+
+
+POINT = inertial(2, ("0", "0", "0"))
+BOX = '<collision><geometry><box size="0.6 0.3 0.1"/></geometry></collision>'
+LIMIT = '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="9" velocity="9"/>'
+LEG = '<collision><origin xyz="0 0 -0.2"/><geometry><sphere radius="0.05"/></geometry></collision>'
+
+
+def make_legged(root, leg):
+    """A robot on four legs, whose root and legs have the given mass properties."""
+    legs = [f"{side}_leg" for side in ("fl", "fr", "rl", "rr")]
+    corners = ("0.2 0.1 0", "0.2 -0.1 0", "-0.2 0.1 0", "-0.2 -0.1 0")
+    joints = [joint(f"{name}_hip", "base", name, inside=f'<origin xyz="{at}"/>{LIMIT}')
+              for name, at in zip(legs, corners, strict=True)]  # fmt: skip
+    return robot(link("base", root + BOX), *(link(name, leg + LEG) for name in legs), *joints)
+
+
+def test_a_free_base_without_inertia_gets_that_of_a_box(write):
+    written = export(write("r.urdf", make_legged(POINT, POINT)))
+    model = tree(written)
+    base = tensor_of(written_inertial(model, "base"))
+    expected = np.diag([0.09 + 0.01, 0.36 + 0.01, 0.36 + 0.09]) * 2 / 12
+    np.testing.assert_allclose(base, expected, rtol=1e-12)
+    np.testing.assert_allclose(
+        tensor_of(written_inertial(model, "fl_leg")), np.eye(3) * 2 * 0.02 / 12, rtol=1e-12
+    )
+    texts = [loss.message for loss in written.losses if loss.code == "lossy-point-mass"]
+    assert len(texts) == 5
+    assert all("tensor of a box around its geometry" in text for text in texts)
+
+
+@pytest.mark.parametrize("base", ["free", "fixed"])
+def test_other_point_masses_stay_points(write, base):
+    is_free = base == "free"
+    text = make_legged(inertial(2, (1, 1, 1)) if is_free else POINT, POINT)
+    model = tree(export(write("r.urdf", text), base=base))
+    assert tensor_of(written_inertial(model, "fl_leg")).max() < 1e-11

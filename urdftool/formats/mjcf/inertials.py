@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ...diagnostic import Severity
 from ...finding import Finding
 from ...geometry.link_extent import compute_box_size
+from ...mechanics.repair import compute_box_tensor
 from ...mechanics.spatial_inertia import SpatialInertia, combine
 from ...mechanics.tensor import (
     ZERO_TENSOR,
@@ -62,6 +63,7 @@ def compute_inertials(
         read = read_inertia(link)
         if read is not None:
             found[link.name] = read
+    is_extended = _is_base_point(structure, found)
     for top, members in structure.members.items():
         group = {link.name: found[link.name] for link in members if link.name in found}
         bad = [name for name, read in group.items() if not read.is_possible]
@@ -70,7 +72,8 @@ def compute_inertials(
                 if not group[name].is_possible:
                     wrong.extend(_repair(structure, name, group, fix, force, written))
         if top != structure.root.name or structure.free:
-            _give_weight(structure, top, group, written)
+            if not (is_extended and _replace_point(structure, top, group, written)):
+                _give_weight(structure, top, group, written)
         for name in [link.name for link in members]:
             found.pop(name, None)
         found.update(group)
@@ -226,6 +229,46 @@ def _get_part_of_tiny(structure: Structure, top: str, group: dict[str, LinkInert
         for name, read in group.items()
     )
     return TINY / about if about > 0 else 1.0
+
+
+def _is_base_point(structure: Structure, found: dict[str, LinkInertia]) -> bool:
+    """Tell whether a robot has a free base with a mass and no rotational inertia.
+
+    Nothing resists its rotation, so the contacts of such a robot never come to rest.
+    """
+    reads = [found[link.name] for link in structure.members[structure.root.name]
+             if link.name in found]  # fmt: skip
+    if not structure.free or sum(read.mass for read in reads) <= ENOUGH:
+        return False
+    return not any(read.is_heavy(ENOUGH) for read in reads)
+
+
+def _replace_point(
+    structure: Structure, top: str, group: dict[str, LinkInertia], written: Written
+) -> bool:
+    """Give a point mass the tensor of a solid box around its geometry; return whether it has one.
+
+    Bullet computes tensors from the collision geometry, too, unless it is asked not to.
+    """
+    if any(read.is_heavy(ENOUGH) for read in group.values()) or not group:
+        return False
+    name = max(group, key=lambda name: group[name].mass)
+    point, robot = group[name], structure.robot
+    size = compute_box_size(robot, [(robot.link[name], IDENTITY)])
+    if size is None or point.mass <= ENOUGH or min(sorted(size)[1:]) <= 0:
+        return False
+    tensor = compute_box_tensor(point.mass, size)
+    group[name] = point.get_changed(tensor)
+    written.report_loss(
+        "point-mass",
+        f"link '{name}' is a point mass, as the free base is: nothing resists its rotation; it has "
+        f"the tensor of a box around its geometry, {format_moments_text(tensor)} kg·m²",
+        point.place,
+        kind="link",
+        name=name,
+        hint="write its <inertia>",
+    )
+    return True
 
 
 def _give_weight(
