@@ -94,7 +94,7 @@ site: $(VENV)/.docs
 	@echo "build/site/index.html"
 
 # What urdftool is measured beside: the other tools in an environment of their own, then all that
-# takes no long time, into docs/benchmarks.md; `make fidelity` takes longer, for docs/fidelity.md.
+# takes no long time, into docs/measurements/benchmarks.md; `make fidelity` takes longer, for docs/measurements/fidelity.md.
 bench: $(VENV)/.dev
 	$(BIN)/python -m measure.benchmarks --write
 

@@ -41,17 +41,30 @@ MENU = {
         *("python", "completion"),
     ),
     "Measurements": (
-        *("benchmarks", "fidelity", "verify", "robustness", "simulate-robots"),
-        *("srdf-vendors", "srdf-numbers"),
-        *("collision-measurements", "edit-measurements", "server-measurements"),
-        *("inertia-vendors", "vendors", "lint-precision"),
+        *(f"measurements/{name}" for name in ("index", "benchmarks", "fidelity", "verify")),
+        *(f"measurements/{name}" for name in ("lint-precision", "robustness", "simulate-robots")),
+        *(f"measurements/{name}" for name in ("collision", "inertia-vendors", "vendors")),
+        *(f"measurements/{name}" for name in ("srdf-vendors", "srdf-numbers", "edits", "server")),
     ),
     "Development": ("architecture", "contributing"),
 }
 """Pages of the menu, by caption; files that do not exist are left out."""
 
 RENAMED_PAGES = {"howto/strangers": "howto/untrusted-input", "house": "architecture"}
-REDIRECTS = RENAMED_PAGES | {f"rules/{a}": f"rules/{b}" for a, b in RENAMED_RULES.items()}
+MOVED_PAGES = {
+    **{
+        name: f"measurements/{name}"
+        for name in (
+            *("benchmarks", "fidelity", "verify", "lint-precision", "robustness"),
+            *("simulate-robots", "inertia-vendors", "vendors", "srdf-vendors", "srdf-numbers"),
+        )
+    },
+    **{f"{name}-measurements": f"measurements/{name}" for name in ("collision", "server")},
+    "edit-measurements": "measurements/edits",
+}
+REDIRECTS = (
+    RENAMED_PAGES | MOVED_PAGES | {f"rules/{a}": f"rules/{b}" for a, b in RENAMED_RULES.items()}
+)
 """Old addresses of pages, and their new ones."""
 
 project = author = "urdftool"

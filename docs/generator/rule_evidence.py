@@ -68,7 +68,7 @@ def write_evidence() -> Iterator[str]:
         "lint itself or off by default. "
         f"*fired* counts the files with a finding among {fired['files']} of example-robot-data, "
         "pybullet_data and 20 repositories, checked with the defaults; "
-        "[judged findings](../lint-precision.md) are useful / noise / wrong. "
+        "[judged findings](../measurements/lint-precision.md) are useful / noise / wrong. "
         "An effect may be that a reader takes the value as written."
     )
     yield ""

@@ -2,7 +2,7 @@
 
 Machines are noisy: what counts are ratios of medians, each pair timed in turn. Nothing here passes
 or fails; a number that got worse is for a reader to see. ``--write`` puts each table into its
-section of docs/benchmarks.md, and ``--list`` says which there are.
+section of docs/measurements/benchmarks.md, and ``--list`` says which there are.
 """
 
 from __future__ import annotations

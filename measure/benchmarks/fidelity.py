@@ -1,4 +1,4 @@
-"""What each tool makes of every robot of two packages: the page docs/fidelity.md.
+"""What each tool makes of every robot of two packages: the page docs/measurements/fidelity.md.
 
     pip install -e '.[fidelity]'; make bench-peers
     python -m measure.benchmarks.fidelity [--write] [--only NAME] [--jobs N] [--keep FILE.json]
@@ -150,11 +150,12 @@ def main(words: list[str]) -> int:
             print(name, file=sys.stderr, flush=True)
             if arguments.keep:
                 arguments.keep.write_text(json.dumps(kept), "utf-8")
-    text = fidelity_page.page({name: kept[name] for name, _ in robots})
+    text = fidelity_page.page(kept := {name: kept[name] for name, _ in robots})
     if arguments.write:
         page = fidelity_page.PAGE.read_text("utf-8")
-        _, mark, part = page.partition("\n<!-- usd begins -->")  # of measure.benchmarks.usd
+        _, mark, part = page.partition("\n<!-- usd ")  # of measure.benchmarks.usd
         fidelity_page.PAGE.write_text(text + mark + part, "utf-8")
+        fidelity_page.DATA.write_text(fidelity_page.data(kept), "utf-8")
     else:
         print(text)
     return 0

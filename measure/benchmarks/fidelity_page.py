@@ -1,16 +1,18 @@
-"""The page of the fidelity table: a row a robot, a cell a tool, and reasons below."""
+"""The fidelity page: the counts of each tool; and its data: a row for each robot and tool."""
 
 from __future__ import annotations
 
 import datetime
 import re
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 from . import peers
 from .converters import CONVERTERS
 
-PAGE = peers.ROOT / "docs" / "fidelity.md"
+PAGE = peers.ROOT / "docs" / "measurements" / "fidelity.md"
+DATA = Path(__file__).with_name("fidelity.tsv")
 
 EXACT = 1e-4
 """What a mass, a mass matrix or an inertia may be off by, relative, and be equal."""
@@ -43,12 +45,14 @@ avoid some of the losses (MuJoCo's `discardvisual="false"`, `fusestatic="false"`
 """
 
 LEGEND = """\
-**=** all is equal. Otherwise the cell lists the differences: *links 7/10* means that seven of
-ten links have their pose and name, and the same for joints, ranges, efforts, visuals and
-collisions; *mass* is the total mass (in the result / in the source), *matrix* and *inertia* are
-relative differences. **✗** no result that an engine loads, with the number of the reason below
-the table. *f* urdftool needed `--force`; *d* its own `--verify` found a difference that was not
-reported as a loss. *loads*: no reference.
+[measure/benchmarks/fidelity.tsv](https://github.com/urdftool/urdftool/blob/main/measure/benchmarks/fidelity.tsv)
+has {count} rows, one for each robot and tool. `equal`: all is equal. Otherwise the result lists the
+differences: `links 7/10` means that seven of ten links have their pose and name, and the same for
+joints, ranges, efforts, visuals and collisions; `mass` is the total mass (in the result / in the
+source), `matrix` and `inertia` are relative differences. `no result` has the reason, `loads` no
+reference. The notes say where urdftool needed `--force`, and where its own `--verify` found a
+difference that was not reported as a loss; the last column has the losses that the export reported
+of a robot that is not equal.
 """
 
 
@@ -59,8 +63,6 @@ def page(results: Mapping[str, Mapping[str, Mapping[str, Any]]]) -> str:
     packages = dict.fromkeys(c.package for c in CONVERTERS if c.name in there)
     known = [(name, peers.version(name)) for name in (*packages, "example-robot-data", "pybullet")]
     versions = ", ".join(f"{name} {number}" for name, number in known if number)
-    reasons: dict[str, int] = {}
-    rows = [_row(name, found, tools, reasons) for name, found in sorted(results.items())]
     from .fidelity_engines import CONFIGURATIONS
 
     today = datetime.datetime.now(tz=datetime.timezone.utc).date().isoformat()
@@ -71,11 +73,7 @@ def page(results: Mapping[str, Mapping[str, Mapping[str, Any]]]) -> str:
             versions=versions, configurations=CONFIGURATIONS,
         ),
         "## Summary", _summary(results, tools), _reading(results, tools),
-        "## Every robot", LEGEND,
-        _table(["robot", *tools], rows),
-        "Why nothing came out:",
-        "\n".join(f"{number}. {_plain(text)}" for text, number in reasons.items()),
-        "## Losses that urdftool reported", _said(results),
+        "## Every robot", LEGEND.format(count=sum(map(len, results.values()))),
     ]  # fmt: skip
     return "\n\n".join(part.strip() for part in parts) + "\n"
 
@@ -83,10 +81,6 @@ def page(results: Mapping[str, Mapping[str, Mapping[str, Any]]]) -> str:
 def _table(head: list[str], rows: list[list[str]]) -> str:
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
-
-
-def _plain(text: str) -> str:
-    return re.sub(r"([<*_|\[])", r"\\\1", text)
 
 
 def wrong(found: Mapping[str, Any]) -> list[str]:
@@ -115,29 +109,31 @@ def loads(found: Mapping[str, Any]) -> bool:
     return "why" not in found and "load" not in found
 
 
-def _row(
-    name: str,
-    results: Mapping[str, Mapping[str, Any]],
-    tools: list[str],
-    reasons: dict[str, int],
-) -> list[str]:
-    short = name.replace("example-robot-data/", "").replace("_description", "")
-    return [_plain(short), *(_cell(results.get(tool, {}), reasons) for tool in tools)]
+def data(results: Mapping[str, Mapping[str, Mapping[str, Any]]]) -> str:
+    """Write a line of tab-separated values for each robot and tool."""
+    lines = ["robot\ttool\tresult\tnotes\treported losses"]
+    for name, found in sorted(results.items()):
+        short = name.replace("example-robot-data/", "").replace("_description", "")
+        lines += ["\t".join((short, tool, *_cells(tool, one))) for tool, one in found.items()]
+    return "\n".join(lines) + "\n"
 
 
-def _cell(found: Mapping[str, Any], reasons: dict[str, int]) -> str:
-    if not found:
-        return "–"
-    marks = "f" if found.get("forced") else ""
-    marks += "d" if "differs" in found.get("verify", {}).values() else ""
-    mark = f" *{marks}*" if marks else ""
+def _cells(tool: str, found: Mapping[str, Any]) -> tuple[str, str, str]:
+    """The result of one tool, its notes, and the losses that were reported of a difference."""
+    notes = ["forced"] if found.get("forced") else []
+    if "differs" in found.get("verify", {}).values():
+        notes.append("difference not reported")
+    differs = tool.startswith("urdftool") and is_measured(found) and wrong(found)
+    losses = ", ".join(found.get("losses", [])) if differs else ""
+    return _result(found), ", ".join(notes), losses
+
+
+def _result(found: Mapping[str, Any]) -> str:
     if not loads(found):
-        text = normal(str(found.get("why") or found.get("load")))
-        return f"✗ {reasons.setdefault(text, len(reasons) + 1)}{mark}"
+        return f"no result: {normal(str(found.get('why') or found.get('load')))}"
     if not is_measured(found):
-        return f"loads{mark}" if "reference" not in found else f"converts{mark}"
-    parts = list(_differences(found))
-    return f"{', '.join(parts) if parts else '='}{mark}"
+        return "converts" if "reference" in found else "loads"
+    return ", ".join(_differences(found)) or "equal"
 
 
 def _differences(found: Mapping[str, Any]) -> Iterator[str]:
@@ -208,16 +204,3 @@ def _reading(results: Mapping[str, Mapping[str, Mapping[str, Any]]], tools: list
         f"a difference that was not reported as a loss. {forced} needed `--force`. {bare} files "
         "have no reference or no result."
     )
-
-
-def _said(results: Mapping[str, Mapping[str, Mapping[str, Any]]]) -> str:
-    """For each of ours that is not equal: what the export announced."""
-    lines = []
-    for name, found in sorted(results.items()):
-        for tool, one in found.items():
-            if not tool.startswith("urdftool") or not is_measured(one) or not wrong(one):
-                continue
-            said = ", ".join(f"`{rule}`" for rule in one.get("losses", [])) or "nothing"
-            apart = ", ".join(_differences(one))
-            lines.append(f"- {_plain(name)}, {tool.split()[1]}: {apart}. Reported: {said}.")
-    return "\n".join(lines) if lines else "Every one that has a reference is equal."

@@ -1,4 +1,4 @@
-"""The inertias that vendors wrote against those of their own meshes: docs/inertia-vendors.md.
+"""The inertias that vendors wrote against those of their own meshes, and their page.
 
 Run: pip install example-robot-data pybullet; python -m measure.benchmarks.inertia_vendors [--check]
 """
@@ -16,7 +16,7 @@ from urdftool.inertia.mesh_files import read_meshes
 from urdftool.inertia.review import review
 from urdftool.model.load import load
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "inertia-vendors.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "measurements" / "inertia-vendors.md"
 BEGIN, END = "<!-- table begins -->", "<!-- table ends -->"
 
 ERD = Path(sysconfig.get_paths()["purelib"], "cmeel.prefix", "share", "example-robot-data")

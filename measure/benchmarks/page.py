@@ -1,4 +1,4 @@
-"""docs/benchmarks.md: a section for each benchmark, each with its date, versions and machine."""
+"""The page of benchmarks: a section for each, with its date, versions and machine."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from pathlib import Path
 
 from . import peers
 
-PAGE = peers.ROOT / "docs" / "benchmarks.md"
-FIDELITY = peers.ROOT / "docs" / "fidelity.md"
+PAGE = peers.ROOT / "docs" / "measurements" / "benchmarks.md"
+FIDELITY = peers.ROOT / "docs" / "measurements" / "fidelity.md"
 LINK = "[fidelity](fidelity.md)"
 
 _INSTALLED = re.compile(r"/[^\s'\"]*/site-packages/(?:cmeel\.prefix/share/)?")

@@ -6,7 +6,7 @@ It runs where usd-core and Newton are installed. The other converters are in env
 own, named by URDFTOOL_USD_CONVERTER, URDFTOOL_URDF2ANY and URDFTOOL_SKROBOT; one that is not named
 is left out. Each robot is converted to a folder of its own, and Newton imports the stage on the
 processor. The reference is the description itself, by ``urdftool.mechanics.reference``. ``--write``
-replaces a part of docs/fidelity.md.
+replaces a part of docs/measurements/fidelity.md.
 """
 
 from __future__ import annotations

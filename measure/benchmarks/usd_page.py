@@ -1,4 +1,4 @@
-"""The parts of docs/fidelity.md on conversions to USD."""
+"""The parts of docs/measurements/fidelity.md on conversions to USD."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "fidelity.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "measurements" / "fidelity.md"
 ROWS = ("mass", "center", "inertia", "frames", "joints", "limits", "effort", "velocity",
         "friction, damping", "mimic", "colliders", "shapes")  # fmt: skip
 EXCUSES = {

@@ -21,7 +21,7 @@ from urdftool.source.document import read_file
 
 from .robots import CORPUS, example_folder
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "vendors.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "measurements" / "vendors.md"
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
 

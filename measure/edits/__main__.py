@@ -3,7 +3,7 @@
 Without files, the robots of example-robot-data and pybullet_data that are installed are measured.
 ``--mistakes`` plants one mistake in each result of every fourth robot. ``--peer PYTHON`` measures
 scikit-robot, which that Python has, in place of the operations. ``--write`` writes the tables into
-docs/edit-measurements.md. ``--save FILE`` writes the results after each robot; ``--merge FILE...``
+docs/measurements/edits.md. ``--save FILE`` writes the results after each robot; ``--merge FILE...``
 adds those of several processes.
 """
 

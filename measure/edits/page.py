@@ -7,7 +7,7 @@ from pathlib import Path
 
 from .run import Results
 
-PAGE = Path(__file__).parents[2] / "docs" / "edit-measurements.md"
+PAGE = Path(__file__).parents[2] / "docs" / "measurements" / "edits.md"
 
 
 def write_page(results: Results, *, is_written: bool) -> str:

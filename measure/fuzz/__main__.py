@@ -2,7 +2,7 @@
 
 python -m measure.fuzz --cases 20000 --seed 1
 python -m measure.fuzz --seed 1 --only 4711      # that case again; its folder is kept
-python -m measure.fuzz --seed 1 --write          # and the table into docs/robustness.md
+python -m measure.fuzz --seed 1 --write   # and the table into docs/measurements/robustness.md
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from measure.benchmarks.robots import ROOT
 
 from .commands import COMMANDS
 
-PAGE = ROOT / "docs" / "robustness.md"
+PAGE = ROOT / "docs" / "measurements" / "robustness.md"
 MARKED = re.compile(r"(<!-- fuzz begins -->\n).*?(<!-- fuzz ends -->)", re.DOTALL)
 
 

@@ -36,7 +36,7 @@ from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
 from urdftool.lint.robot_search import find_robots
 
-PAGE = ROOT / "docs" / "lint-precision.md"
+PAGE = ROOT / "docs" / "measurements" / "lint-precision.md"
 KEPT = Path(__file__).with_name("verdicts.jsonl")
 HEAD = """\
 # How precise lint is
@@ -57,6 +57,17 @@ with seed 4711; one reader looked the elements up in the files, or judged by the
 reason names it, and ran a simulator only where the reason names the run. Rules were changed
 later.
 """
+RULES = """\
+## Rules with findings that were wrong
+
+{judged_wrong} of {rules} rules have a finding that was wrong when it was judged; these have {often}
+or more. The page of a rule has its own counts.
+[measure/precision/verdicts.jsonl](https://github.com/urdftool/urdftool/blob/main/measure/precision/verdicts.jsonl)
+has every finding with its verdict and the reason, one JSON object in each line:
+`grep '"rule": "missing-dynamics"' measure/precision/verdicts.jsonl`.
+"""
+OFTEN = 4
+"""Wrong findings of a rule for which it is listed: chosen, so that the table is short."""
 VERDICTS = ("useful", "noise", "wrong")
 
 
@@ -184,49 +195,34 @@ def judged() -> list[dict[str, Any]]:
 
 
 def page(rows: list[dict[str, Any]]) -> str:
-    """Write the page: the counts of each sample, and a row for each finding."""
-    samples = list(dict.fromkeys(row["sample"] for row in rows))
-    lines = [
-        HEAD,
-        "| sample | findings | useful | noise | wrong |",
-        "|---|---:|---:|---:|---:|",
+    """Write the page: the counts of each sample, and of the rules with findings that were wrong."""
+    titles = {row["sample"]: _title(row["sample"]) for row in rows}
+    rules = {row["rule"]: f"[{row['rule']}](../rules/{row['rule']}.md)" for row in rows}
+    wrong = Counter(row["rule"] for row in rows if row["verdict"] == "wrong")
+    often = {rule: rules[rule] for rule, count in wrong.most_common() if count >= OFTEN}
+    parts = [
+        HEAD.strip(),
+        _table("sample", "sample", titles, rows),
+        RULES.format(often=OFTEN, rules=len(rules), judged_wrong=len(wrong)).strip(),
+        _table("rule", "rule", often, rows),
     ]
-    for sample in samples:
-        counts = Counter(row["verdict"] for row in rows if row["sample"] == sample)
+    return "\n\n".join(parts) + "\n"
+
+
+def _table(head: str, key: str, titles: dict[str, str], rows: list[dict[str, Any]]) -> str:
+    """Make a table with a row for each value of a key, and the counts and shares of verdicts."""
+    lines = [f"| {head} | findings | useful | noise | wrong |", "|---|---:|---:|---:|---:|"]
+    for value, title in titles.items():
+        counts = Counter(row["verdict"] for row in rows if row[key] == value)
         shares = (f"{counts[v]} ({counts[v] / counts.total():.1%})" for v in VERDICTS)
-        title = _title(sample)
-        anchor = title.lower().replace(",", "").replace(" ", "-")
-        lines.append(f"| [{title.lower()}](#{anchor}) | {counts.total()} | {' | '.join(shares)} |")
-    for sample in samples:
-        lines += [
-            "",
-            f"## {_title(sample)}",
-            "",
-            "| # | robot | rule | finding | verdict | why |",
-            "|---:|---|---|---|---|---|",
-        ]
-        lines += [_row(row) for row in rows if row["sample"] == sample]
-    return "\n".join(lines) + "\n"
+        lines.append(f"| {title} | {counts.total()} | {' | '.join(shares)} |")
+    return "\n".join(lines)
 
 
 def _title(sample: str) -> str:
     """Write the title of a sample such as ``finding 1`` or ``finding 1, robots``."""
     by, _, rest = sample.partition(" ")
-    return f"By {by}, seed {rest}"
-
-
-def _row(row: dict[str, Any]) -> str:
-    assert row["verdict"] in VERDICTS, row
-    place = f"{row['robot']}:{row['line']}"
-    message = _cell(f"{row['severity']}: {row['message']}")
-    return (
-        f"| {row['number']} | {_cell(place)} | [{row['rule']}](rules/{row['rule']}.md) "
-        f"| {message} | {row['verdict']} | {_cell(row['reason'])} |"
-    )
-
-
-def _cell(text: str) -> str:
-    return text.replace("|", "\\|").replace("<", "\\<").replace("*", "\\*").replace("\n", " ")
+    return f"by {by}, seed {rest}"
 
 
 def main(words: list[str]) -> int:
@@ -236,7 +232,7 @@ def main(words: list[str]) -> int:
     parser.add_argument("--count", type=int, default=120)
     parser.add_argument("--by", choices=("finding", "rule"), default="finding")
     parser.add_argument("--only", choices=("robots",), help="leave out tests, lessons, objects")
-    parser.add_argument("--page", action="store_true", help="write docs/lint-precision.md")
+    parser.add_argument("--page", action="store_true", help="write the page of docs/measurements")
     parser.add_argument("folders", nargs="*", help="draw from the robots below these folders")
     arguments = parser.parse_args(words)
     if arguments.page:

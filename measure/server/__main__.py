@@ -1,7 +1,7 @@
 """Measure ``urdftool server``: ``python -m measure.server [--write] [definitions] [changes]``.
 
 Measured are the xacro robots of the corpus. ``--write`` writes the tables into
-docs/server-measurements.md.
+docs/measurements/server.md.
 """
 
 from __future__ import annotations

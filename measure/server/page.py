@@ -7,7 +7,7 @@ from pathlib import Path
 from .changes import Changes
 from .definitions import Definitions, Tally
 
-PAGE = Path(__file__).parents[2] / "docs" / "server-measurements.md"
+PAGE = Path(__file__).parents[2] / "docs" / "measurements" / "server.md"
 KINDS = ("macro", "property", "parameter", "argument")
 
 

@@ -4,7 +4,7 @@
 - ``python -m measure.srdf sample --poses N --seconds S --search S``: random poses and a directed
   search on the pairs that were proved, and MoveIt's sampling on the arms.
 - ``python -m measure.srdf boxes ROBOT ...``: lets coal check all boxes of the proofs.
-- ``python -m measure.srdf write``: writes docs/srdf-numbers.md.
+- ``python -m measure.srdf write``: writes docs/measurements/srdf-numbers.md.
 
 Results are JSON files in the folder ``--work``; robots that have one are not measured again.
 """
@@ -26,7 +26,7 @@ from ..benchmarks.robots import ROOT
 from .page import format_page
 from .robots import ARM, GRIPPER, Source, list_sources
 
-PAGE = ROOT / "docs" / "srdf-numbers.md"
+PAGE = ROOT / "docs" / "measurements" / "srdf-numbers.md"
 
 
 def measure_decided(source: Source) -> dict[str, Any]:

@@ -7,8 +7,11 @@ EXCEPTIONS: tuple[tuple[str, str, str], ...] = (
     (r"docs/(?:index|start)\.md", r"I want to", "the heading of a table of tasks"),
     (r"docs/conf\.py", r"howto/strangers", "the old address of a page"),
     (r"docs/formats/sdf\.md", r"^\d+ materials of Gazebo", "names of materials of Gazebo"),
-    (r"docs/(?:verify|formats/sdf)\.md", r"\| colours", "a row that export --verify prints"),
-    (r"docs/lint-precision\.md", r"^\|", "findings as they were printed, and reasons of readers"),
+    (
+        r"docs/(?:measurements/verify|formats/sdf)\.md",
+        r"\| colours",
+        "a row that export --verify prints",
+    ),
     (r"model/gazebo_colors\.py", r"Grey", "names of materials of Gazebo"),
     (r"docs/howto/classic-to-gz\.md", r"Gazebo/Grey", "names of materials of Gazebo"),
     (r"docs/rules/renamed-rule\.md", r"-in-millimetres", "an old name of a rule"),

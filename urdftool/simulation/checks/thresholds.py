@@ -6,8 +6,8 @@ at the start. The sources are:
 - *physics*, *geometry*: follows from the stated fact;
 - *contact*: above the inaccuracy of hulls, contact margins and rounded files (up to 1 mm in
   PyBullet);
-- *chosen*: no derivation; the verdicts in ``docs/simulate-robots.md``, on robots of two collections
-  and on planted defects, use this value.
+- *chosen*: no derivation; the verdicts in ``docs/measurements/simulate-robots.md``, on robots of
+  two collections and on planted defects, use this value.
 """
 
 from __future__ import annotations
