@@ -18,7 +18,7 @@ PROOFS = [
 READERS = [path for path in MODULES if path.stem == "read" or path.stem.startswith("read_")]
 
 # What a proof may import of the exporter: it repeats an export to see that it is the same, reads
-# what was chosen and what was declared, and compiles a copy.
+# what was chosen and what was declared, compiles a copy, and steps what was read back.
 OPEN = (
     *("check", "mechanics", "written", "common.losses", "common.directory", "verify", "detect"),
     *("common.actuator_config", "common.force_fallbacks"),
@@ -34,6 +34,7 @@ OPEN = (
     ),
     "usd.declared_losses",
     "mjcf.read",
+    "step_read_back",
 )
 
 

@@ -1,5 +1,6 @@
 """The comparison of a stage with its source, and that it finds a changed stage."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -145,3 +146,41 @@ def test_gains_of_an_actuator_file_are_compared(write):
     written.files["r.usda"] = export(path, file="r.usda").files["r.usda"]
     wrong = {check.name for check in our_rows(path, written) if check.verdict == "differs"}
     assert wrong == {"actuators", "joint physics"}
+
+
+LIMIT = '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="20" velocity="9"/>'
+TENSOR = '<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>'
+POLE = '<geometry><box size="0.04 0.04 0.4"/></geometry>'
+LEG = f'<collision><origin xyz="0 0 -0.2"/>{POLE}</collision>'
+STANDING = robot(
+    link("base", 4, BOX),
+    *(
+        joint(f"hip{n}", "base", f"leg{n}", "revolute", f'<origin xyz="{x} {y} 0"/>{LIMIT}')
+        + link(f"leg{n}", 0.5, LEG, TENSOR, '<origin xyz="0 0 -0.2"/>')
+        for n, (x, y) in enumerate((x, y) for x in (0.2, -0.2) for y in (0.1, -0.1))
+    ),
+)
+
+
+@pytest.mark.library("mujoco")
+def test_the_stage_is_stepped_as_it_was_read_back(write):
+    path = write("legs.urdf", STANDING)
+    written = export(path, file="r.usda", pose={"hip*": 0.3})
+    assert rows_by_name(path, written)["runs"].verdict == "equal"
+    text = written.files["r.usda"].decode()
+    weak = re.sub(r"physics:(stiffness|damping) = \S+", r"physics:\1 = 0.001", text)
+    written.files["r.usda"] = weak.encode()
+    fallen = rows_by_name(path, written)["runs"]
+    assert fallen.verdict == "announced"
+    assert fallen.announced[0].startswith("falls: the base moves")
+
+
+def test_without_mujoco_the_stage_is_not_stepped(write, monkeypatch):
+    monkeypatch.setattr("urdftool.formats.step_read_back.is_installed", lambda name: False)
+    path = write("arm.urdf", ARM)
+    row = rows_by_name(path, export(path, file="r.usda"))["runs"]
+    assert (row.verdict, row.skipped) == ("not compared", "not stepped: MuJoCo is not installed")
+
+
+def rows_by_name(path, written):
+    return {check.name: check for check in our_rows(path, written)}

@@ -126,13 +126,16 @@ class Trial:
         ]
 
 
-def check_runs(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check:
+def check_runs(
+    path: Path, declared: DeclaredLosses, *, excluded: bool, start: str = "home"
+) -> Check:
     """Simulate a model at each time step.
 
     Args:
         path: The MJCF file.
         declared: The reported losses.
         excluded: Whether links that overlap at home are excluded from contact.
+        start: Where the model starts, for the table.
 
     Returns:
         The row ``runs`` of the comparison.
@@ -141,7 +144,9 @@ def check_runs(path: Path, declared: DeclaredLosses, *, excluded: bool) -> Check
     timesteps = sorted({written, TIMESTEPS[-1]})
     steps = " and ".join(f"{step * 1000:g}" for step in timesteps)
     check = Check(
-        "runs", f"{SECONDS:g} s from home, {steps} ms: no warning, limits, base motion [m]", DRIFT
+        "runs",
+        f"{SECONDS:g} s from {start}, {steps} ms: no warning, limits, base motion [m]",
+        DRIFT,
     )
     for timestep in timesteps:
         trial = run_at_home(path, timestep)

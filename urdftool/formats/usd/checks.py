@@ -35,7 +35,7 @@ def check_unwritten(
         return []
     from .verify import verify_copy
 
-    return verify_copy(robot, written)
+    return verify_copy(robot, written, timestep=options.timestep)
 
 
 def check_output(

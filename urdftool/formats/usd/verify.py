@@ -1,8 +1,8 @@
 """Comparison of a stage with the robot that it was exported from.
 
 The stage is read by ``read.py`` and compared with the source, which has the choices of the export
-(``planned.py``) where the description says nothing; in addition, Newton imports the stage where it
-is installed. Only a loss that the export reported excuses a difference.
+(``planned.py``) where the description says nothing, and stepped in MuJoCo; in addition, Newton
+imports the stage where it is installed. Only a loss that the export reported excuses a difference.
 """
 
 from __future__ import annotations
@@ -21,10 +21,11 @@ from ...model.world import add_world
 from ...source.document import read_file
 from ..common.directory import write_export
 from ..common.losses import DeclaredLosses, name_links
+from ..step_read_back import check_read_back
 from ..written import Written
 from .declared_losses import EXCUSES
 from .read import read
-from .verify_home import compare_home
+from .verify_home import compare_home, read_start
 
 _SINGLE = 1e-6
 """Tolerance of most rows: a stage has 32-bit floats."""
@@ -36,12 +37,15 @@ _PLACES = ("frames", "axes", "collisions", "visuals", "colors", "mass matrix", "
 """Rows in which the rounding of several floats adds up; they keep their tolerance."""
 
 
-def verify_copy(robot: Robot, written: Written, *, newton: bool | None = None) -> list[Check]:
+def verify_copy(
+    robot: Robot, written: Written, *, timestep: float | None = None, newton: bool | None = None
+) -> list[Check]:
     """Write a copy of an export, read it, and compare it with its source.
 
     Args:
         robot: The source.
         written: The export.
+        timestep: Physics time step [s] for which the gains of servos were chosen.
         newton: Whether to import the copy with Newton; None if it is installed.
     """
     assert written.planned is not None
@@ -55,6 +59,7 @@ def verify_copy(robot: Robot, written: Written, *, newton: bool | None = None) -
         claims = Claims(losses, written.renamed, EXCUSES, reading.losses)
         checks = prove(expected, reading.robot, claims, rows=choose_rows())
         checks.append(compare_home(path, expected, written.planned.configurations[0].positions))
+        checks.append(check_read_back(reading.robot, read_start(path), timestep, losses))
         if is_installed("newton") if newton is None else newton:
             from .verify_newton import compare_newton
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from pxr import Usd, UsdPhysics
@@ -25,13 +25,9 @@ def compare_home(path: Path, robot: Robot, home: Mapping[str, float]) -> Check:
         home: Joint positions at home [rad or m], by name.
     """
     check = Check("home", "positions and targets of servos at home, within limits [rad, m]", 1e-6)
-    stage = Usd.Stage.Open(str(path))
-    for prim in stage.Traverse():
-        name = prim.GetCustomDataByKey("urdf:joint")
-        joint = robot.joint.get(str(name)) if name else None
-        if joint is None or not (
-            prim.IsA(UsdPhysics.RevoluteJoint) or prim.IsA(UsdPhysics.PrismaticJoint)
-        ):
+    for name, prim in _list_joints(path):
+        joint = robot.joint.get(name)
+        if joint is None:
             continue
         expected = home.get(joint.name, 0.0)
         for text, value in _list_positions(prim).items():
@@ -43,6 +39,21 @@ def compare_home(path: Path, robot: Robot, home: Mapping[str, float]) -> Check:
                 max(lower - expected, expected - upper, 0.0), f"joint '{joint.name}': limits"
             )
     return check
+
+
+def read_start(path: Path) -> dict[str, float]:
+    """Return the positions at which the joints of a stage start [rad or m], by name."""
+    return {name: _list_positions(prim)["position"] for name, prim in _list_joints(path)}
+
+
+def _list_joints(path: Path) -> Iterator[tuple[str, Usd.Prim]]:
+    """Yield the joints with one degree of freedom, with their names in the source."""
+    stage = Usd.Stage.Open(str(path))
+    for prim in stage.Traverse():
+        name = prim.GetCustomDataByKey("urdf:joint")
+        is_single = prim.IsA(UsdPhysics.RevoluteJoint) or prim.IsA(UsdPhysics.PrismaticJoint)
+        if name and is_single:
+            yield str(name), prim
 
 
 def _list_positions(prim: Usd.Prim) -> dict[str, float]:
