@@ -162,6 +162,7 @@ STANDING = robot(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.library("mujoco")
 def test_the_stage_is_stepped_as_it_was_read_back(write):
     path = write("legs.urdf", STANDING)
@@ -172,7 +173,7 @@ def test_the_stage_is_stepped_as_it_was_read_back(write):
     written.files["r.usda"] = weak.encode()
     fallen = rows_by_name(path, written)["runs"]
     assert fallen.verdict == "announced"
-    assert fallen.announced[0].startswith("falls: the base moves")
+    assert any(text.startswith("falls: the base moves") for text in fallen.announced)
 
 
 def test_without_mujoco_the_stage_is_not_stepped(write, monkeypatch):
