@@ -270,9 +270,13 @@ def _volume(triangles):
 def test_a_mirrored_mesh_is_the_mirror_image_with_its_triangles_turned(write, urdftool):
     here = (RULES / "degenerate-triangles" / "meshes" / "arm.stl").read_bytes()
     write("arm.stl", here)
-    mirrored = ROBOT.format("arm.stl").replace("/></geo", ' scale="0.5 -0.5 0.5"/></geo')
+    mirrored = (
+        ROBOT.replace("collision>", "visual>")
+        .format("arm.stl")
+        .replace("/></geo", ' scale="0.5 -0.5 0.5"/></geo')
+    )
     paths = [write(name, mirrored) for name in ("a.urdf", "b.urdf")]
-    assert urdftool("lint", *paths, "--select", "mirrored-scale", *FIX).code == 0
+    assert urdftool("lint", *paths, "--select", "mirrored-scale", "--target", "gz", *FIX).code == 0
     for path in paths:  # the second finds what was made for the first
         assert '"arm_mirrored_y.stl" scale="0.5 0.5 0.5"' in Path(path).read_text()
     old, new = _triangles(here), _triangles(Path("arm_mirrored_y.stl").read_bytes())
@@ -283,9 +287,13 @@ def test_a_mirrored_mesh_is_the_mirror_image_with_its_triangles_turned(write, ur
 
 def test_a_mirrored_copy_keeps_the_suffix_of_the_file(write, urdftool):
     write("arm.STL", (RULES / "degenerate-triangles" / "meshes" / "arm.stl").read_bytes())
-    mirrored = ROBOT.format("arm.STL").replace("/></geo", ' scale="1 -1 1"/></geo')
+    mirrored = (
+        ROBOT.replace("collision>", "visual>")
+        .format("arm.STL")
+        .replace("/></geo", ' scale="1 -1 1"/></geo')
+    )
     path = write("a.urdf", mirrored)
-    assert urdftool("lint", path, "--select", "mirrored-scale", *FIX).code == 0
+    assert urdftool("lint", path, "--select", "mirrored-scale", "--target", "gz", *FIX).code == 0
     assert '"arm_mirrored_y.STL" scale="1 1 1"' in Path(path).read_text()
     assert Path("arm_mirrored_y.STL").exists()
 

@@ -205,7 +205,7 @@ def test_a_plugin_in_an_attribute_is_a_sign_of_gazebo_classic(write):
     assert report.findings == []
     report = check_file(write("s.urdf", f"{moved}{kp}</robot>"), Options(line))
     assert [(f.code, f.severity.label) for f in report.findings] == [
-        ("missing-control-plugin", "warning"),
+        ("missing-control-plugin", "info"),
         ("no-effect-in-gz", "info"),
     ]
 

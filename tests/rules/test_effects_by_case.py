@@ -48,6 +48,45 @@ def effects_of(tmp_path, rule, text):
     return found(tmp_path, rule, text).effects
 
 
+NEGATIVE, MASSLESS = (INERTIAL.format(mass=mass, moment=0.01) for mass in (-1, 0))
+HELD = _robot(MASSLESS, kind="fixed").replace(
+    "</robot>",
+    '<link name="world"/><joint name="w" type="fixed"><parent link="world"/><child link="base"/>'
+    "</joint></robot>",
+)
+
+
+@pytest.mark.parametrize(
+    ("robot", "effects"),
+    [
+        (_robot(NEGATIVE), ["reject the model", "rejects the file"]),
+        (_robot(NEGATIVE, kind="fixed"), [None, "ignores the mass"]),
+        (_robot(HEAVY, mid=NEGATIVE, kind="fixed"), [None, "ignores the mass"]),
+        (_robot(HEAVY, base=NEGATIVE), ["reject the model", "ignores the mass"]),
+    ],
+    ids=["moves", "fixed", "carries", "root"],
+)
+def test_a_negative_mass(tmp_path, robot, effects):
+    given = effects_of(tmp_path, "negative-mass", robot)
+    for reader, start in zip(("gz, gazebo-classic", "mujoco"), effects, strict=True):
+        assert given[reader].startswith(start) if start else reader not in given
+
+
+@pytest.mark.parametrize(
+    ("robot", "severity", "readers"),
+    [
+        (_robot(HEAVY, mid=MASSLESS, kind="fixed"), "warning", ["gz, gazebo-classic, pinocchio"]),
+        (_robot(MASSLESS, kind="fixed"), "warning", ["gz, gazebo-classic, pinocchio", "mujoco"]),
+        (HELD.replace('"revolute"', '"fixed"'), "info", []),
+    ],
+    ids=["moves", "fixed", "world"],
+)
+def test_an_inertia_without_a_mass(tmp_path, robot, severity, readers):
+    finding = found(tmp_path, "zero-mass", robot)
+    assert finding.severity.label == severity
+    assert list(finding.effects) == [*readers, "drake"]
+
+
 @pytest.mark.parametrize(
     ("robot", "gazebo", "mujoco"),
     [

@@ -140,7 +140,9 @@ def missing_control_plugin(
     In Gazebo a joint without a plugin moves freely: an arm collapses after spawning. Without joint
     states RViz has no transforms of the links. Joints with equal limits are ignored, and robots
     with a part for Gazebo in a xacro condition are not reported. For a robot with two wheels on one
-    axle about its y axis, the message has the parameters of a differential drive.
+    axle about its y axis, the message has the parameters of a differential drive. It is an info
+    for a file without plugins, transmissions and ``<ros2_control>``: a world or a wrapper may add
+    the plugin.
     """
     joints = [
         joint
@@ -182,7 +184,8 @@ def missing_control_plugin(
     if pair is not None:
         data |= {"wheel_separation": pair.separation, "wheel_radius": pair.radius}
     message = f"{which} {names} {verb}, but no Gazebo plugin {acts}; add {remedy}"
-    yield Problem(robot, message, data=data)
+    is_driven = bool(plugins or robot.transmissions or robot.ros2_controls) or pair is not None
+    yield Problem(robot, message, data=data, severity=None if is_driven else INFO)
 
 
 @missing_control_plugin.fix(UNSAFE)

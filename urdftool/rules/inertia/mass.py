@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...model.attached import find_attached_links
+from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.bounds import Bounds
 from ...model.elements import Link, Robot
 from ...model.millimeters import find_shapes_in_millimeters
@@ -21,6 +21,7 @@ from .solids import compute_volume
 from .tensors import has_written_inertial
 
 _AS_PART = ("gz, gazebo-classic, pinocchio (part)", "mujoco (part)", "drake (part)")
+_HELD = ("drake (part)",)
 _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
 
 
@@ -80,13 +81,16 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         if compute_mass(links) > 0:
             tensor = link.inertial.inertia
             if tensor is not None and any(tensor.six):
+                held = is_fixed_to_world(robot, link)
+                leads = link is links[0]  # MuJoCo adds the inertia of the link that the joint moves
                 yield Problem(
                     link,
                     f"link '{link.name}' has mass 0 but a nonzero inertia; write its mass, or set "
                     "the inertia to zero",
                     at=at,
-                    effects=_AS_PART,
-                    alike="part",
+                    severity=INFO if held else None,
+                    effects=_HELD if held else _AS_PART[:: 2 if leads else 1],
+                    alike=("part", held, leads),
                 )
             continue
         if link is not next(one for one in links if one in zero):
@@ -174,6 +178,7 @@ def _report_massless_pairs(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
     effects={
         "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 18)",
         "mujoco": "rejects the file",
+        "mujoco (part)": "ignores the mass",
         "pybullet, urdfdom, pinocchio": "accept it without a message",
         "drake": "warns, and uses another inertia",
         "newton": "warns, and takes 0 kg",
@@ -184,6 +189,7 @@ def negative_mass(robot: Robot) -> Iterator[Problem]:
     """A link's mass is negative.
 
     The link accelerates against the force. Gazebo and MuJoCo reject it, PyBullet simulates it.
+    MuJoCo ignores the mass of a link that is fixed to others with mass, or to the world.
     """
     for link, mass, place in _get_masses(robot):
         if mass < 0:
@@ -192,7 +198,20 @@ def negative_mass(robot: Robot) -> Iterator[Problem]:
                 f"mass of link '{link.name}' is negative ({mass:g} kg); write {-mass:g}",
                 at=place,
                 data={"mass": mass},
+                effects=(*_select_readers_of_negative(robot, link), *_NEGATIVE),
             )
+
+
+_NEGATIVE = ("pybullet, urdfdom, pinocchio", "drake", "newton")
+
+
+def _select_readers_of_negative(robot: Robot, link: Link) -> list[str]:
+    """Get the keys of effects of Gazebo and MuJoCo, which depend on the links that are attached."""
+    members = [one for one, _ in find_attached_links(robot, link)]
+    joints = [robot.tree.get_parent_joint(one.name) for one in members]
+    is_alone = not any(one.mass > 0 for one in members)
+    moves = any(joint is not None and not joint.is_fixed for joint in joints)
+    return ["gz, gazebo-classic"] * is_alone + ["mujoco" if is_alone and moves else "mujoco (part)"]
 
 
 @negative_mass.fix(UNSAFE)

@@ -43,8 +43,9 @@ def left_right_asymmetry(
     robot: Robot,
     *,
     mass_difference: float = 0.05,
-    com_difference: float = 0.05,
+    com_difference: float = 0.1,
     inertia_difference: float = 0.2,
+    least_distance: float = 0.005,
     certain: float = 5.0,
 ) -> Iterator[Problem]:
     """A link and its mirror image differ in mass, center of mass or inertia.
@@ -53,7 +54,8 @@ def left_right_asymmetry(
     names, such as ``left_arm`` and ``right_arm``. Compared are values that do not depend on the
     orientation of the frames: the mass, the distance of the center of mass from the frame, and the
     sum of the moments of inertia. ``mass_difference``, ``com_difference`` and
-    ``inertia_difference`` are the tolerated relative differences. A mass that is ``certain`` times
+    ``inertia_difference`` are the tolerated relative differences, and ``least_distance`` [m] the
+    smallest difference of two centers of mass that is reported. A mass that is ``certain`` times
     the other is a warning. Parts of rigid bodies that
     mirror each other as a whole are not reported.
     """
@@ -86,7 +88,7 @@ def left_right_asymmetry(
             )
             continue
         here, there = _compute_com_distance(link), _compute_com_distance(other)
-        if _is_different(here, there, com_difference) and abs(here - there) > 0.002:
+        if _is_different(here, there, com_difference) and abs(here - there) > least_distance:
             yield Problem(
                 other,
                 f"center of mass of link '{other.name}' is {there:.3g} m from its frame, but that "

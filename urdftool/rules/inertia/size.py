@@ -64,10 +64,8 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
     slight = find_slight_parts(robot)
     whole: dict[str, list[Link]] | None = None
     for link, inertial, six in get_tensors(robot):
-        if not is_placeholder(link, six):
-            continue
-        if link.name in slight:
-            continue
+        if not is_placeholder(link, six) or link.mass < 0 or link.name in slight:
+            continue  # negative-mass reports the mass
         moment = six[0]
         radius = math.sqrt(moment / inertial.mass) if inertial.mass and inertial.mass > 0 else 0.0
         large = moment == 1.0 or radius > 1.0

@@ -210,41 +210,33 @@ def remove_scale(problem: Problem, context: FixContext) -> Proposal | None:
 
 @rule(
     WARNING,
-    raised={"gz": ERROR},
+    on=("gz",),
     effects={
-        "mujoco": "mirrors the mesh",
-        "gz (visual)": "takes the scale as written; Ogre 2 shows the back sides of the triangles",
-        "gz (collision)": "takes the scale as written",
-        "urdfdom, gazebo-classic, pybullet": "take the scale as written",
+        "gz": "takes the scale as written; Ogre 2 shows the back sides of the triangles",
     },
     formats=URDF_AND_SDF,
 )
 def mirrored_scale(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A mesh is mirrored by a negative scale.
+    """The mesh of a visual is mirrored by a negative scale.
 
-    A negative factor turns the triangles inside out, which readers do not correct: the mesh is lit
-    from the wrong side, or only its back sides are drawn. Use a mirrored copy of the file; other
-    links may use the original. One finding names all such meshes.
+    A negative factor turns the triangles inside out, which new Gazebo does not correct: only the
+    back sides are drawn. Use a mirrored copy of the file; other links may use the original. One
+    finding names all such meshes. Collisions are not reported, and the rule only runs for new
+    Gazebo, for which the defect was reported.
     """
     found = []
     for use in get_mesh_uses(robot, description):
         x, y, z = use.mesh.scale
-        if x * y * z < 0:
+        if x * y * z < 0 and not use.collides:
             found.append(use)
     if found:
         count = len({use.uri for use in found})
         more = f" (and {count - 1} more)" if count > 1 else ""
-        visual = any(not use.collides for use in found)
         yield Problem(
             found[0].link,
             f"mesh '{found[0].uri}'{more} has a negative scale, which turns its triangles inside "
             "out; use a mirrored copy of the file",
             at=found[0].mesh.locate_attribute("scale"),
-            effects=(
-                "mujoco",
-                "gz (visual)" if visual else "gz (collision)",
-                "urdfdom, gazebo-classic, pybullet",
-            ),
             data={"uris": list(dict.fromkeys(use.uri for use in found))},
         )
 

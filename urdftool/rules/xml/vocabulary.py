@@ -60,7 +60,6 @@ _ELEMENT_REMEDIES = {
     ("collision", "pose"): "write <origin> in place of the SDF element",
     ("collision", "surface"): 'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
     ("collision", "max_contacts"): 'write <maxContacts> inside <gazebo reference="the link">',
-    ("collision", "material"): "a collision has no color; remove it, or write it in <visual>",
     ("inertial", "pose"): "write <origin> in place of the SDF element",
     ("inertial", "ixx"): "write the six numbers as attributes of <inertia>",
     ("inertia", "ixx"): "write six attributes in place of the SDF elements",
@@ -92,7 +91,7 @@ _ELEMENT_REMEDIES = {
 """Remedy for a misplaced element, by parent and tag."""
 
 _HARMLESS = frozenset((("collision", "material"),))
-"""Elements that readers ignore without a loss."""
+"""Elements that readers ignore without a loss. They are not reported."""
 
 _OTHER_NAMES = {
     ("origin", "pos"): "xyz",
@@ -179,7 +178,8 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     Readers ignore unknown elements without a message. With a misspelled ``<colision>`` the link
     falls through the ground; with an ``<inertia>`` outside ``<inertial>`` it has no mass. SDF
     elements in a URDF are ignored too. An element that is not similar to any of URDF may be for a
-    different program; it is an info.
+    different program; it is an info. A ``<material>`` in a ``<collision>`` is not reported: a
+    collision has no color, and nothing is lost.
     """
     unknown = get_census(robot).unknown
     in_xacro = bool(unknown) and description.expansion is not None
@@ -189,11 +189,13 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         parent = element.parent
         if parent is None or parent.tag == "dynamics" or element.tag in of_xacro:
             continue
+        if (parent.tag, element.tag) in _HARMLESS:
+            continue
         if parent.tag == "geometry" and not _is_misplaced(element, parent):
             continue
         word = suggest_word(element.tag, VOCABULARY[parent.tag].children)
         instead = _ELEMENT_REMEDIES.get((parent.tag, element.tag))
-        if (parent.tag, element.tag) in _HARMLESS or (word is None and not instead):
+        if word is None and not instead:
             other.setdefault((parent.tag, element.tag), []).append(element)
         elif instead:
             what = f"<{element.tag}> does not belong in {_describe(parent)}; {instead}"
@@ -203,8 +205,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             yield Problem(element, what, severity=ERROR, alike=(parent.tag, element.tag))
     for kind, elements in other.items():
         where = f"{_describe(elements[0].parent)}{_format_count(elements)}"
-        why = _ELEMENT_REMEDIES.get(kind, "URDF readers ignore it")
-        message = f"<{kind[1]}> does not belong in {where}; {why}"
+        message = f"<{kind[1]}> does not belong in {where}; URDF readers ignore it"
         yield Problem(elements[0], message, severity=INFO, alike=(*kind, len(elements) > 1))
 
 
