@@ -88,6 +88,11 @@ def _is_cmeel(folder: Path) -> bool:
 
 def is_shared(folder: Path, files: Workspace) -> bool:
     """Tell whether a folder holds more than one project: a system, home or temporary folder."""
+    return _is_shared(files, folder)
+
+
+@memoize_by_workspace
+def _is_shared(files: Workspace, folder: Path) -> bool:
     if len(folder.parts) <= 1 or folder.name in _LIBRARIES or _is_cmeel(folder):
         return True
     inner = folder.parts[1:]
@@ -146,6 +151,11 @@ def _find_link_project(place: Path, files: Workspace, *, of_repository: bool) ->
 
 def find_repository(folder: Path, files: Workspace) -> Path | None:
     """Return the repository around a folder; None if there is none below the shared folders."""
+    return _find_repository(files, folder)
+
+
+@memoize_by_workspace
+def _find_repository(files: Workspace, folder: Path) -> Path | None:
     for place in list_above(folder, files):
         if any(files.exists(place / mark) for mark in _REPOSITORY_MARKS):
             return place

@@ -22,7 +22,7 @@ from ..rules.old_names import find_old_names, find_old_rules
 from ..rules.rule import Problem, Rule
 from ..rules.table import APPLIES_TO, FIXES
 from ..source.description import Description, is_xacro, read_description
-from ..source.document import STDIN, Document, Element, parse, read_file
+from ..source.document import STDIN, Document, Element, parse_once, read_file
 from ..source.location import SourceFile
 from ..source.packages import Packages
 from ..source.unknown_arguments import list_unknown_arguments
@@ -361,7 +361,7 @@ def _list_documents(description: Description, name: str) -> Iterator[Document]:
         return
     for file in description.files:
         try:
-            yield parse(file)
+            yield parse_once(file)
         except SourceError:
             continue
 

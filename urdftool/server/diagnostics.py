@@ -10,7 +10,7 @@ from ..errors import UrdftoolError
 from ..finding import Finding
 from ..rules import FAMILY_OF
 from ..source.location import Call, Place
-from .knowledge import Knowledge, make_path
+from .knowledge import Knowledge
 
 MOST_CALLS = 20
 """Related places of one diagnostic; chosen: editors show them in a small window."""
@@ -31,7 +31,7 @@ def convert_findings(
     for finding in findings:
         if not (finding.moot and finding.severity is Severity.INFO):
             converted = convert_finding(knowledge, finding)
-            found.setdefault(make_path(finding.location.path), []).append(converted)
+            found.setdefault(knowledge.get_path(finding.location.path), []).append(converted)
     return found
 
 
@@ -60,7 +60,7 @@ def make_error(knowledge: Knowledge, error: UrdftoolError, path: str) -> dict[st
     place = {"line": line, "character": 0}
     at = error.at
     return {
-        "path": make_path(at.path if at is not None else error.path or path),
+        "path": knowledge.get_path(at.path if at is not None else error.path or path),
         "range": {"start": place, "end": place} if at is None else _get_range(knowledge, at),
         "severity": _LEVELS[Severity.ERROR],
         "code": error.rule or "not-checked",
@@ -85,7 +85,7 @@ def _list_related(knowledge: Knowledge, finding: Finding) -> Iterator[dict[str, 
     for reader, effect in finding.effects.items():
         yield {
             "location": {
-                "path": make_path(finding.location.path),
+                "path": knowledge.get_path(finding.location.path),
                 "range": _get_range(knowledge, finding.location),
             },
             "message": f"{reader}: {effect}",
@@ -93,8 +93,14 @@ def _list_related(knowledge: Knowledge, finding: Finding) -> Iterator[dict[str, 
 
 
 def _relate(knowledge: Knowledge, call: Call, message: str) -> dict[str, Any]:
-    place = Place(call.file, call.start, call.file.find_tag_end(call.start))
-    return {
-        "location": {"path": make_path(call.file.path), "range": _get_range(knowledge, place)},
-        "message": message,
-    }
+    return {"location": _locate_call(knowledge, call), "message": message}
+
+
+def _locate_call(knowledge: Knowledge, call: Call) -> dict[str, Any]:
+    """Return the location of a call, which is computed once: findings share calls."""
+    table, key = knowledge.make_table(call.file), ("call", id(call.file), call.start)
+    if key not in knowledge.memo:
+        reach = table.get_first_line(call.start, call.file.find_tag_end(call.start))
+        knowledge.memo[key] = {"path": knowledge.get_path(call.file.path), "range": reach}
+    found: dict[str, Any] = knowledge.memo[key]
+    return found

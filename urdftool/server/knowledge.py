@@ -289,6 +289,14 @@ class Knowledge:
         table: LineTable = self.memo[key][0]
         return table
 
+    def get_path(self, path: str) -> str:
+        """Return a path as :func:`make_path`, computed once until the next change."""
+        key = "path", path
+        if key not in self.memo:
+            self.memo[key] = make_path(path)
+        found: str = self.memo[key]
+        return found
+
     def get_offset(self, params: dict[str, Any]) -> int:
         """Return the byte of the position of a question."""
         return self.make_table(self.read(params["path"])).get_offset(params["position"])

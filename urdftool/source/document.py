@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 from xml.parsers import expat
 
+from ..dependencies import read_stamp
 from ..errors import AccessError, SourceError, XmlError
 from ..file_access import AccessRefused
 from ..projects import explain_link_out
@@ -101,7 +102,8 @@ class Element:
         while todo:
             element = todo.pop()
             yield element
-            todo.extend(reversed(element.children))
+            if element.children:
+                todo += element.children[::-1]
 
     @property
     def place(self) -> Place:
@@ -205,6 +207,32 @@ def _read_bounded(stream: BinaryIO) -> tuple[bytes, int]:
 
 def _get_reason(error: Exception) -> str:
     return getattr(error, "strerror", None) or str(error)
+
+
+def read_included_file(path: str, workspace: Workspace) -> SourceFile:
+    """Read a file as :func:`read_file`, once until it changes on the disk.
+
+    Files that robots share, and those that an editor does not change, are read and parsed once.
+
+    Raises:
+        SourceError: It cannot be read.
+    """
+    stamp = read_stamp(("file", path)) if workspace.get_overlay(path) is None else None
+    if stamp is None:
+        return read_file(path, workspace)
+    key = read_included_file, path, stamp
+    return workspace.memoize(key, lambda inner: read_file(path, inner))
+
+
+def parse_once(file: SourceFile) -> Document:
+    """Parse a file as :func:`parse`; the tree is kept with the file, and must not be changed.
+
+    Raises:
+        XmlError: It is not well-formed, declares entities, or is nested too deeply.
+    """
+    if not isinstance(file.document, Document):
+        file.document = parse(file)
+    return file.document
 
 
 def parse(file: SourceFile) -> Document:

@@ -33,5 +33,5 @@ def expand_xacro(
     """
     result = Expansion(file, arguments, record=record)
     expand(result, packages)
-    check_writable(result.tree)
+    check_writable(result.nodes)
     return result

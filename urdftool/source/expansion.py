@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from typing import Literal, NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal, NamedTuple
 
 from ..control_characters import escape_controls
 from .document import Document, Element
@@ -12,11 +12,12 @@ from .location import Place, SourceFile
 from .xacro_tree import (
     CDATA,
     COMMENT,
-    ELEMENT,
     INSTRUCTION,
     TEXT,
+    Attributes,
     Characters,
     Node,
+    Parent,
     XacroDocument,
     XacroElement,
 )
@@ -60,11 +61,15 @@ class Lookup(NamedTuple):
     definitions: tuple[tuple[SourceFile, int], ...]
 
 
+ExpandedNode = tuple[Any, ...]
+"""Element: depth from 1, tag, attributes, file, first byte, calls. Else: depth, type, text."""
+
+
 class Expansion:
     """Result of an expansion.
 
     Attributes:
-        tree: Expanded tree, in the form that xacro uses.
+        nodes: Nodes of the expanded tree in document order; empty while it is expanded.
         file: Expanded file.
         files: All XML files read, in the order of first use.
         dependencies: Paths of the other files read: includes and YAML.
@@ -78,7 +83,8 @@ class Expansion:
         """Create an empty result that contains only the file itself."""
         self.file = file
         self.given = dict(given)
-        self.tree = XacroDocument()
+        self.nodes: list[ExpandedNode] = []
+        self._tree: XacroDocument | None = None
         self.files: dict[str, SourceFile] = {file.path: file}
         self.dependencies: list[str] = []
         self.arguments: dict[str, Argument] = {}
@@ -102,22 +108,52 @@ class Expansion:
 
     def make_document(self) -> Document:
         """Return the expanded tree as a document whose elements know their source."""
-        return Document(self.file, _convert(self.tree.documentElement, None), [])
+        above: list[Element] = []
+        root: Element | None = None
+        for node in self.nodes:
+            depth, kind, data, *source = node
+            del above[depth - 1 :]
+            parent = above[-1] if above else None
+            if isinstance(kind, str):
+                element = Element(kind, dict(data), parent, *source)
+                above.append(element)
+                if parent is None:
+                    root = element
+                else:
+                    parent.children.append(element)
+            elif parent is not None and kind in (TEXT, CDATA) and not data.isspace():
+                parent.text += data
+        assert root is not None  # the reader of the result requires one
+        return Document(self.file, root, [])
+
+    @property
+    def tree(self) -> XacroDocument:
+        """Return the expanded tree in the form that xacro uses."""
+        if self._tree is None:
+            self._tree = _make_tree(self.nodes)
+        return self._tree
+
+    @tree.setter
+    def tree(self, tree: XacroDocument) -> None:
+        self._tree = tree
 
 
-def _convert(node: XacroElement, parent: Element | None) -> Element:
-    element = Element(
-        node.tagName, dict(node.attributes), parent, node.file, node.start, node.calls
-    )
-    child = node.firstChild
-    while child is not None:
-        if child.nodeType == ELEMENT:
-            assert isinstance(child, XacroElement)
-            element.children.append(_convert(child, element))
-        elif isinstance(child, Characters) and child.nodeType <= 4 and not child.data.isspace():
-            element.text += child.data
-        child = child.nextSibling
-    return element
+def _make_tree(nodes: Iterable[ExpandedNode]) -> XacroDocument:
+    """Return a tree of nodes in document order."""
+    document = XacroDocument()
+    above: list[Parent] = [document]
+    for node in nodes:
+        depth, kind, data, *source = node
+        del above[depth:]
+        if not isinstance(kind, str):
+            above[-1].appendChild(Characters(data, kind))
+            continue
+        element = XacroElement(kind, Attributes(data), *source)
+        above[-1].appendChild(element)
+        if depth == 1:
+            document.documentElement = element
+        above.append(element)
+    return document
 
 
 def write_xml(document: XacroDocument, banner: list[str]) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 from ..control_characters import LINES, escape_controls
 from ..errors import XacroError
 from ..suggestions import find_nearest
-from .document import read_file
+from .document import read_included_file
 from .location import SourceFile
 from .packages import Packages, shorten_path
 from .sandbox import Sandbox
@@ -87,7 +87,7 @@ class ExpansionFiles:
         installed = shorten_path(self._packages.find_installed(path))
         if installed not in self._indices:
             self._sandbox.check_file(installed)
-            self.files.append(read_file(installed, self._packages.workspace))
+            self.files.append(read_included_file(installed, self._packages.workspace))
             self._indices[installed] = len(self.files) - 1
         index = self._indices[installed]
         return index, self.files[index]

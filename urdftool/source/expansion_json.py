@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any, TypeVar, get_args
 
 from ..errors import PackageNotFound, SourceError, UrdftoolError, XacroError, XmlError
-from .expansion import Argument, Expansion, Lookup, LookupKind, Warned
+from .expansion import Argument, ExpandedNode, Expansion, Lookup, LookupKind, Warned
 from .location import Call, Place, SourceFile
 from .well_formed import MAX_DEPTH
 from .xacro_tree import (
@@ -15,10 +15,8 @@ from .xacro_tree import (
     COMMENT,
     INSTRUCTION,
     TEXT,
-    Attributes,
     Characters,
     Node,
-    Parent,
     XacroDocument,
     XacroElement,
 )
@@ -176,9 +174,9 @@ class Reader:
         ]
 
     def read_result(self, result: Expansion) -> list[str]:
-        """Set tree, arguments and warnings of an expansion; return the included files."""
+        """Set nodes, arguments and warnings of an expansion; return the included files."""
         value = self._value
-        result.tree = self._read_tree(value["nodes"])
+        result.nodes = self._read_nodes(value["nodes"])
         for name, default, place in value["arguments"]:
             argument = Argument(
                 _require_text(name), _require_text(default), self._read_place(place)
@@ -231,39 +229,31 @@ class Reader:
             raise ValueError(f"from byte {start} to byte {end}")
         return Place(file, start, end, _pick(self._stacks, calls))
 
-    def _read_tree(self, nodes: Any) -> XacroDocument:
-        document = XacroDocument()
-        above: list[Parent] = [document]
-        roots = 0
+    def _read_nodes(self, nodes: Any) -> list[ExpandedNode]:
+        """Return nodes whose values have the expected types, below one root element."""
+        found: list[ExpandedNode] = []
+        reached, roots = 1, 0
         for depth, kind, *rest in nodes:
-            if not 0 < _require_number(depth) <= min(len(above), MAX_DEPTH + 1):
-                raise ValueError(f"depth {depth} below {len(above)}")
-            del above[depth:]
+            if not 0 < _require_number(depth) <= min(reached, MAX_DEPTH + 1):
+                raise ValueError(f"depth {depth} below {reached}")
             if isinstance(kind, int):
                 if kind not in _KINDS:
                     raise ValueError(f"kind {kind}")
-                above[-1].appendChild(Characters(_require_text(rest[0]), kind))
+                found.append((depth, kind, _require_text(rest[0])))
+                reached = depth
                 continue
             attributes, file, start, calls = rest
-            values = Attributes(attributes)
-            for text in values.values():
-                _require_text(text)
-            element = XacroElement(
-                _require_text(kind),
-                values,
-                *self._read_start(file, start),
-                _pick(self._stacks, calls),
-            )
-            above[-1].appendChild(element)
-            if depth == 1:
-                if roots:
-                    raise ValueError("two root elements")
-                document.documentElement = element
-                roots += 1
-            above.append(element)
-        if not roots:
-            raise ValueError("no root element")
-        return document
+            if set(map(type, attributes.values())) - _TEXTS:
+                raise TypeError("the value of an attribute is not text")
+            source = *self._read_start(file, start), _pick(self._stacks, calls)
+            found.append((depth, _require_text(kind), attributes, *source))
+            reached, roots = depth + 1, roots + (depth == 1)
+        if roots != 1:
+            raise ValueError(f"{roots} root elements")
+        return found
+
+
+_TEXTS = frozenset((str,))
 
 
 def _pick(items: Sequence[T], index: Any) -> T:

@@ -170,6 +170,7 @@ class Packages:
         self.configured = dict(configured or {})
         self.used: dict[str, Path] = {}
         self.assumed: dict[str, Path] = {}
+        self._missing: dict[str, tuple[str, list[str]]] = {}
         self._rules: dict[str, list[InstallRule]] = {}
 
     @property
@@ -181,6 +182,7 @@ class Packages:
         """Return the same finder with another workspace."""
         other = copy(self)
         other.files = workspace.restrict(None)
+        other._missing = {}
         other.access = self.access.with_packages(other)
         return other
 
@@ -243,13 +245,15 @@ class Packages:
                 f"'{name}' is not a package name",
                 rule="package-not-found",
             )
-        searched: list[str] = []
-        for where, folder in self._list_candidates(name):
-            if folder is not None and self.files.is_folder(folder):
-                self.used[name] = folder
-                return folder
-            searched.append(where)
-        near = self.suggest_package(name)
+        if name not in self._missing:
+            searched: list[str] = []
+            for where, folder in self._list_candidates(name):
+                if folder is not None and self.files.is_folder(folder):
+                    self.used[name] = folder
+                    return folder
+                searched.append(where)
+            self._missing[name] = self.suggest_package(name), searched
+        near, searched = self._missing[name]
         meant = f"did you mean '{near}'? Otherwise " if near else ""
         raise PackageNotFound(
             f"package '{name}' is not found; {meant}set its folder with --package {name}=DIR "

@@ -6,11 +6,14 @@ Expressions can compute characters that XML does not allow, and names of element
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Sequence
 from xml.parsers import expat
 
 from ..control_characters import escape_controls
 from ..errors import XacroError
-from .xacro_tree import CDATA, COMMENT, INSTRUCTION, Characters, XacroDocument, XacroElement
+from .expansion import ExpandedNode
+from .location import Place
+from .xacro_tree import CDATA, COMMENT, INSTRUCTION
 
 _FORBIDDEN = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _NOT_IN_NAME = re.compile(r"[\s<>/=&'\"?!]")
@@ -18,57 +21,71 @@ _ENDS = {COMMENT: "--", CDATA: "]]>", INSTRUCTION: "?>"}
 _LONGEST = 60  # characters of a name in a message
 
 
-def check_writable(document: XacroDocument) -> None:
+def check_writable(nodes: Sequence[ExpandedNode]) -> None:
     """Check that a tree, written as XML, is read again as the same tree.
+
+    Args:
+        nodes: Its nodes, of which one is the root element.
 
     Raises:
         XacroError: A value has a character that XML does not allow, a comment contains ``--``, or a
             name is not a name of XML or has an undeclared prefix; with the place of the element.
     """
-    known: set[str] = set()
-    for node in document.childNodes:
-        if isinstance(node, Characters):
-            _check_text(node, document.documentElement)
-    todo: list[tuple[XacroElement, frozenset[str]]] = [(document.documentElement, _PREFIXES)]
-    while todo:
-        element, prefixes = todo.pop()
-        attributes = element.attributes
-        text = "".join(attributes.values())
+    known: set[tuple[str, ...]] = set()
+    above = [next(node for node in nodes if isinstance(node[1], str))]
+    prefixes = [_PREFIXES]
+    for node in nodes:
+        depth, kind, data = node[:3]
+        if not isinstance(kind, str):
+            _check_text(kind, data, above[min(depth, len(above)) - 1])
+            continue
+        text = "".join(data.values())
         if not text.isprintable() and (found := _FORBIDDEN.search(text)):
-            name = next(name for name, value in attributes.items() if found[0] in value)
-            raise _make_error(f"attribute '{name}' has", found[0], element)
-        prefixes = _declare(element, prefixes)
-        for name in (element.tagName, *attributes):
-            if name not in known:
-                _check_name(name, element)
-                known.add(name)
-            if ":" in name and name.partition(":")[0] not in prefixes:
-                raise XacroError(
-                    f"the namespace prefix of '{escape_controls(name)}' is not declared; add "
-                    'xmlns:PREFIX="…" to <robot>',
-                    at=element.place,
-                    rule="expansion-failed",
-                )
-        for child in element.childNodes:
-            if isinstance(child, XacroElement):
-                todo.append((child, prefixes))
-            elif isinstance(child, Characters):
-                _check_text(child, element)
+            name = next(name for name, value in data.items() if found[0] in value)
+            raise _make_error(f"attribute '{name}' has", found[0], node)
+        del above[depth:], prefixes[depth:]
+        above.append(node)
+        prefixes.append(_declare(node, prefixes[-1]))
+        names = kind, *data
+        if names not in known:
+            _check_names(names, prefixes[-1], node)
+            if not any(":" in name for name in names):  # prefixes depend on the elements around
+                known.add(names)
+
+
+def _check_names(names: Iterable[str], prefixes: frozenset[str], node: ExpandedNode) -> None:
+    """Check the names of an element and its attributes."""
+    for name in names:
+        _check_name(name, node)
+        if ":" in name and name.partition(":")[0] not in prefixes:
+            raise XacroError(
+                f"the namespace prefix of '{escape_controls(name)}' is not declared; add "
+                'xmlns:PREFIX="…" to <robot>',
+                at=_locate(node),
+                rule="expansion-failed",
+            )
+
+
+def _locate(node: ExpandedNode) -> Place:
+    """Return the span of the start tag of an element."""
+    file, start, calls = node[3:]
+    return Place(file, start, file.find_tag_end(start), calls)
 
 
 _PREFIXES = frozenset(("xml", "xmlns"))
 
 
-def _declare(element: XacroElement, prefixes: frozenset[str]) -> frozenset[str]:
+def _declare(node: ExpandedNode, prefixes: frozenset[str]) -> frozenset[str]:
     """Return the prefixes in an element: those around it, and those that it declares."""
-    declared = [name for name in element.attributes if name.startswith("xmlns")]
+    attributes: dict[str, str] = node[2]
+    declared = [name for name in attributes if name.startswith("xmlns")]
     for name in declared:
-        prefix, uri = name[6:], element.attributes[name]
+        prefix, uri = name[6:], attributes[name]
         if (prefix and not uri) or prefix in _PREFIXES or uri in _RESERVED or " " in uri:
             raise XacroError(
                 f'{escape_controls(name)}="{escape_controls(uri)}" is not a valid declaration of a '
                 "namespace; use another prefix and address",
-                at=element.place,
+                at=_locate(node),
                 rule="expansion-failed",
             )
     return prefixes.union(name[6:] for name in declared) if declared else prefixes
@@ -77,22 +94,21 @@ def _declare(element: XacroElement, prefixes: frozenset[str]) -> frozenset[str]:
 _RESERVED = ("http://www.w3.org/XML/1998/namespace", "http://www.w3.org/2000/xmlns/")
 
 
-def _check_text(node: Characters, parent: XacroElement) -> None:
+def _check_text(kind: int, data: str, parent: ExpandedNode) -> None:
     """Check a text, CDATA section, comment or processing instruction."""
-    data = node.data
     if not data.isprintable() and (found := _FORBIDDEN.search(data)):
         raise _make_error("the text has", found[0], parent)
-    end = _ENDS.get(node.nodeType)
+    end = _ENDS.get(kind)
     if end is None:
         return
-    kind = "comment" if node.nodeType == COMMENT else "section"
-    if end in data or (node.nodeType == COMMENT and data.endswith("-")):
-        raise _make_error(f"a {kind} has", end, parent)
+    what = "comment" if kind == COMMENT else "section"
+    if end in data or (kind == COMMENT and data.endswith("-")):
+        raise _make_error(f"a {what} has", end, parent)
     if "\r" in data:  # cannot be escaped there, and is read as a line feed
-        raise _make_error(f"a {kind} has", "\r", parent)
+        raise _make_error(f"a {what} has", "\r", parent)
 
 
-def _check_name(name: str, element: XacroElement) -> None:
+def _check_name(name: str, node: ExpandedNode) -> None:
     """Check a name, with the parser that reads descriptions."""
     if not _NOT_IN_NAME.search(name) and re.fullmatch("[^:]+(:[^:]+)?", name):
         parser = expat.ParserCreate()
@@ -105,15 +121,15 @@ def _check_name(name: str, element: XacroElement) -> None:
     raise XacroError(
         f"'{escape_controls(name[:_LONGEST])}' is not a name of an XML element or attribute; "
         "use letters, digits, '_', '-' and '.'",
-        at=element.place,
+        at=_locate(node),
         rule="expansion-failed",
     )
 
 
-def _make_error(what: str, character: str, element: XacroElement) -> XacroError:
+def _make_error(what: str, character: str, node: ExpandedNode) -> XacroError:
     return XacroError(
         f"{what} '{escape_controls(character)}', which XML does not allow there; "
         "remove it from the expression",
-        at=element.place,
+        at=_locate(node),
         rule="expansion-failed",
     )

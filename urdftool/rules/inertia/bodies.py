@@ -22,6 +22,10 @@ def find_rigid_bodies(robot: Robot) -> dict[str, list[Link]]:
     Gazebo lumps a link into its parent over a fixed joint, unless the joint's ``<gazebo>`` says to
     keep it; nothing is lumped into ``world``.
     """
+    return robot.memo.get(find_rigid_bodies, lambda: _find_rigid_bodies(robot))
+
+
+def _find_rigid_bodies(robot: Robot) -> dict[str, list[Link]]:
     owner: dict[str, str] = {}
     found: dict[str, list[Link]] = {}
     for name in robot.tree.order:
@@ -94,6 +98,10 @@ def find_negligible_links(robot: Robot, light: float) -> set[str]:
 
 def find_slight_parts(robot: Robot) -> set[str]:
     """Find the links whose inertia is negligible compared with that of their rigid body."""
+    return robot.memo.get(find_slight_parts, lambda: _find_slight_parts(robot))
+
+
+def _find_slight_parts(robot: Robot) -> set[str]:
     found: set[str] = set()
     for links in find_rigid_bodies(robot).values():
         if len(links) > 1:

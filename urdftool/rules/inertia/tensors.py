@@ -26,6 +26,10 @@ def get_tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]
     Missing or unreadable components, and tensors without mass, are left to other rules. Tensors
     that SDF or MuJoCo supplies are left out.
     """
+    return iter(robot.memo.get(get_tensors, lambda: list(_find_tensors(robot))))
+
+
+def _find_tensors(robot: Robot) -> Iterator[tuple[Link, Inertial, SymmetricTensor]]:
     for link in robot.links:
         inertial = link.inertial
         if inertial is None or not inertial.mass or inertial.inertia is None:

@@ -79,10 +79,9 @@ class LinkExtents:
         """Get the bounding box of one shape, in the frame of its link; None if unknown."""
         if id(shape) in self._in_millimeters:
             return None
-        if not isinstance(shape.geometry, Mesh):
-            return compute_bounds(shape)
         if id(shape) not in self._boxes:
-            self._boxes[id(shape)] = self._get_mesh_box(shape)
+            is_mesh = isinstance(shape.geometry, Mesh)
+            self._boxes[id(shape)] = self._get_mesh_box(shape) if is_mesh else compute_bounds(shape)
         return self._boxes[id(shape)]
 
     def _get_mesh_box(self, shape: Visual | Collision) -> Bounds | None:
