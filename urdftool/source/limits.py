@@ -42,7 +42,7 @@ class EvaluationLimits:
     """Limits of one expansion.
 
     Attributes:
-        since: Processor time [s] at the start of the running expression; None between expressions.
+        running: Number of the running expression, counted from 1; 0 between expressions.
     """
 
     def __init__(self, too_long: Callable[[], Exception]) -> None:
@@ -51,7 +51,9 @@ class EvaluationLimits:
         Args:
             too_long: Makes the error for an expansion that takes longer than ``TOTAL_SECONDS``.
         """
-        self.since: float | None = None
+        self.running = 0
+        self._started = 0
+        self._seen = 0, 0.0
         self._too_long = too_long
         self._end: float | None = None
         self._memory = 0
@@ -71,17 +73,28 @@ class EvaluationLimits:
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0)
 
+    def start(self) -> None:
+        """Begin an expression; its time is counted from the next look of the timer."""
+        self._started += 1
+        self.running = self._started
+
+    def stop(self) -> None:
+        """End the running expression."""
+        self.running = 0
+
     def _look(self, number: int, frame: FrameType | None) -> None:
         if self._end is not None and time.process_time() > self._end:
             self._end = None
             raise self._too_long()
-        if self.since is None:
+        if not self.running:
             return
-        if time.process_time() - self.since > SECONDS:
-            self.since = None
+        if self._seen[0] != self.running:
+            self._seen = self.running, time.process_time()
+        if time.process_time() - self._seen[1] > SECONDS - _INTERVAL:
+            self.running = 0
             raise TimeoutError(f"the evaluation takes more than {SECONDS:g} s of CPU time")
         if _measure_peak_memory() - self._memory > MEMORY:
-            self.since = None
+            self.running = 0
             raise OverflowError(f"the evaluation requires more than {MEMORY >> 20} MiB of memory")
 
 

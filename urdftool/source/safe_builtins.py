@@ -366,10 +366,15 @@ def check_size(value: Any) -> None:
     Raises:
         OverflowError: It exceeds ``MAX_LENGTH``, nested values included.
     """
+    if type(value) in _SCALARS:
+        return
     if isinstance(value, (*_SEQUENCES, *_COLLECTIONS)):
         _refuse_length(len(value))
     if isinstance(value, (list, tuple, *_COLLECTIONS)):
         _refuse_length(_count_characters(value, {}))
+
+
+_SCALARS = frozenset((bool, float, int, type(None)))
 
 
 def _count_characters(value: Any, known: dict[int, int]) -> int:

@@ -12,7 +12,6 @@ import io
 import os
 import re
 import sys
-import time
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from importlib import import_module
@@ -22,7 +21,7 @@ from typing import Any
 
 from ..errors import SourceError, UrdftoolError, XacroError
 from .expansion import Argument, Expansion, Warned
-from .expressions import compile_expression
+from .expressions import Expression, compile_expression
 from .limits import EvaluationLimits, make_time_error
 from .location import Call, Place
 from .safe_builtins import MAX_LENGTH, check_size
@@ -100,6 +99,7 @@ class Run:
         self.include_calls: tuple[Call, ...] = ()
         self.elements = 0
         self.produced = 0
+        self.codes: dict[str, Expression] = {}
         self.patience = EvaluationLimits(lambda: make_time_error(self.place))
         record = result.lookups is not None
         self.lookups = LookupRecorder(lambda: self.node) if record else None
@@ -268,8 +268,7 @@ class Run:
         return wrapped
 
     def eval_all(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Wrap the expansion of an element to limit the number of elements."""
-        wrapped = self.record_node(original)
+        """Wrap the expansion of an element to record it, and to limit the number of elements."""
 
         def evaluate(node: XacroElement, macros: Any, symbols: Any) -> None:
             self.elements += 1
@@ -280,7 +279,9 @@ class Run:
                     at=node.place._replace(calls=node.calls[:3]),
                     rule="endless-expansion",
                 )
-            wrapped(node, macros, symbols)
+            before, self.node = self.node, node
+            original(node, macros, symbols)
+            self.node = before
 
         return evaluate
 
@@ -385,13 +386,13 @@ class Run:
             elif kind == _EXTENSION:
                 inner = self.eval_text(piece, symbols)
                 try:
-                    self.patience.since = time.process_time()
+                    self.patience.start()
                     results.append(xacro.eval_extension(f"$({inner})"))
                 except Exception:
                     self.failed_text = self.failed_text or text
                     raise
                 finally:
-                    self.patience.since = None
+                    self.patience.stop()
             else:
                 results.append(piece)
         if len(results) == 1:
@@ -405,11 +406,16 @@ class Run:
     def evaluate(self, expression: str, symbols: Any) -> Any:
         """Return the value of an expression in ``${…}``."""
         try:
-            source = str(self.eval_text(expression, symbols))
-            code = compile_expression(source, trusted=self.trusted)
+            source = expression
+            if "$" in expression:
+                source = str(self.eval_text(expression, symbols))
+            code = self.codes.get(source)
+            if code is None:
+                code = compile_expression(source, trusted=self.trusted)
+                self.codes[source] = code
             if self.node is not None:
                 self.files.mark_place(self.node.file, self.node.start)
-            self.patience.since = time.process_time()
+            self.patience.start()
             value = code.evaluate(symbols)
             check_size(value)
             return value
@@ -419,7 +425,7 @@ class Run:
                 exc=error, suffix=os.linesep + f"when evaluating expression '{expression}'"
             ) from error
         finally:
-            self.patience.since = None
+            self.patience.stop()
 
     # Results of the expansion -----------------------------------------------------------------
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import NamedTuple
-from xml.dom import NotFoundErr
 
 from .location import Call, Place, SourceFile
 
@@ -186,13 +185,8 @@ class XacroElement(Parent):
         self.attributes[str(name)] = str(value)
 
     def removeAttribute(self, name: str) -> None:
-        """Remove an attribute.
-
-        Raises:
-            NotFoundErr: It is absent.
-        """
-        if self.attributes.pop(name, None) is None:
-            raise NotFoundErr
+        """Remove an attribute if it exists; xacro ignores the DOM's exception for others."""
+        self.attributes.pop(name, None)
 
     def cloneNode(self, deep: bool = True) -> XacroElement:
         """Return a deep copy; a copy of the definition of a macro is an instance of the macro."""
