@@ -24,7 +24,7 @@ STATED = {
     "ogre-material-script": {("simulator data", "material"), ("looks", "material script"),
                              ("simulator data", "gazebo[chassis] added")},
     "plugin-class-mismatch": {("simulator data", "plugin")},
-    "ros2-control-nested": {("simulator data", "removed"), ("simulator data", "added")},
+    "ros2-control-nested": {("simulator data", "existence")},
     "unknown-element": {("colors", "color of visual")},
     "unprefixed-hardware-interface": {("simulator data", "joint[swing]/hardwareInterface")},
     "wrong-arity": {("colors", "color of visual")},

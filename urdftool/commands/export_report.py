@@ -99,7 +99,7 @@ def run_export(
         output,
         as_json=as_json,
         not_compared=not_compared,
-        not_read=robot.unread,
+        not_read=robot.unread if written.unread is None else written.unread,
     )
 
 

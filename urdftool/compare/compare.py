@@ -11,7 +11,7 @@ from ..mechanics.reference import Array
 from ..model.elements import Joint, Robot
 from ..model.world import WORLD
 from .bodies import Body, compute_axis
-from .difference import Comparison, Difference
+from .difference import EXISTENCE, Comparison, Difference
 from .drives import compare_drives
 from .dynamics import compare_dynamics
 from .equipment import compare_equipment
@@ -384,7 +384,7 @@ def _add_unmatched(walk: _Walk, side: int, joint: Joint, match: Match) -> None:
     text = f"{joint.type} joint" + (f" with {count} more below it" if count else "")
     other = (pair.b.robot.link[match.two.name], pair.a.robot.link[match.one.name])[side]
     add_presence(
-        walk.comparison, "tree", "joint", "existence", side, joint, joint.name, text, other=other
+        walk.comparison, "tree", "joint", EXISTENCE, side, joint, joint.name, text, other=other
     )
 
 

@@ -8,6 +8,14 @@ from ..source.location import Place
 from .check import Check
 from .rows import Row
 
+EXISTENCE = "existence"
+"""Property of a part that only one robot has."""
+
+
+def name_part(kind: str, name: str) -> str:
+    """Return kind and name of a part, or the kind of a part without a name."""
+    return f"{kind} '{name}'" if name else kind
+
 
 @dataclass(frozen=True)
 class Difference:
@@ -48,7 +56,7 @@ class Difference:
     @property
     def title(self) -> str:
         """Return kind, name and property."""
-        return f"{self.kind} '{self.name}': {self.what}"
+        return f"{name_part(self.kind, self.name)}: {self.what}"
 
 
 @dataclass

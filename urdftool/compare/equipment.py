@@ -9,12 +9,14 @@ from collections.abc import Iterator
 from ..model.provenance import NOWHERE
 from ..model.settings import JOINT_TAGS, LINK_TAGS
 from .change import Change
-from .difference import Comparison, Difference
+from .difference import EXISTENCE, Comparison, Difference
 from .extensions import BLOCKS, collect_tags, compare_extensions
 from .mechanisms import compare_mechanisms, list_parts_by_kind
+from .native import compare_native
 from .pair import Pair
 
 _BLOCKS = "simulator data"
+_NATIVE = "other elements"
 
 _ROW_OF = {
     "joint actuator": "actuators",
@@ -40,7 +42,7 @@ _READ_IN_GAZEBO = _READ | {"joint"}
 
 def compare_equipment(pair: Pair, comparison: Comparison) -> None:
     """Compare actuators, contact pairs, configurations and plugins of two files of one format."""
-    rows = [row for row in comparison.tolerances if row in _ROW_OF.values()]
+    rows = [row for row in comparison.tolerances if row in (*_ROW_OF.values(), _NATIVE)]
     if pair.formats[0] != pair.formats[1]:
         for row in rows:
             if row not in ("actuators", "sensors"):
@@ -55,6 +57,15 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
     for change in _list_changes(pair):
         if change.kind in _ROW_OF:
             comparison.add(_make_difference(_ROW_OF[change.kind], change))
+    a, b = pair.a.robot, pair.b.robot
+    comparison.record_parts(_NATIVE, a.native, b.native)
+    for change in compare_native(a, b, _TOLERANCE, _get_names(pair)):
+        comparison.add(_make_difference(_NATIVE, change))
+
+
+def _get_names(pair: Pair) -> dict[str, str]:
+    """Return the names of parts in the second robot by those in the first."""
+    return {**pair.parts, **pair.joints, **pair.links}
 
 
 def _record_parts(pair: Pair, comparison: Comparison) -> None:
@@ -70,7 +81,7 @@ def _record_parts(pair: Pair, comparison: Comparison) -> None:
 
 def _list_changes(pair: Pair) -> Iterator[Change]:
     a, b = pair.a.robot, pair.b.robot
-    renamed = {**pair.parts, **pair.joints, **pair.links}
+    renamed = _get_names(pair)
     yield from compare_mechanisms(a, b, _TOLERANCE, renamed)
     for change in compare_extensions(a, b, _TOLERANCE, renamed):
         read = _READ_IN_GAZEBO if change.kind == "gazebo" else _READ
@@ -86,9 +97,9 @@ def _list_changes(pair: Pair) -> Iterator[Change]:
 def _make_difference(row: str, change: Change) -> Difference:
     values, places = (change.before, change.after), (NOWHERE, change.place or NOWHERE)
     if change.what.endswith("removed"):
-        places = places[1], places[0]
-    if change.what.endswith(("added", "removed")):
-        values = ("none", "there") if change.what.endswith("added") else ("there", "none")
-    names = (change.name or "of the robot",) * 2
-    kind, what, unit = change.kind, change.what, change.unit
-    return Difference(row, kind, names, what, values, unit, math.inf, places)
+        values, places = ("there", None), (places[1], places[0])
+    elif change.what.endswith("added"):
+        values = (None, "there")
+    what = EXISTENCE if change.what in ("added", "removed") else change.what
+    names = (change.name, change.name)
+    return Difference(row, change.kind, names, what, values, change.unit, math.inf, places)

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ..model.elements import Robot
+from ..model.mechanism import NativeElement
 from ..model.read import number
 from ..source.document import Element
 from .change import Change
 from .tolerance import close
 
-Flat = dict[str, tuple[str, Element]]
+Content = Element | NativeElement
+Flat = dict[str, tuple[str, Content]]
 BLOCKS = ("transmission", "gazebo", "ros2_control")
 """Tags of the blocks."""
 _NAMING = ("name", "reference", "filename", "type")
@@ -42,6 +44,28 @@ def collect_tags(robot: Robot, change: Change, renamed: Mapping[str, str]) -> se
     return {child.tag for block in blocks for child in block.children}
 
 
+def compare_elements(
+    kind: str,
+    name: str,
+    old: Content,
+    new: Content,
+    tolerance: float,
+    renamed: Mapping[str, str],
+) -> Iterator[Change]:
+    """Yield the differences of two elements, by the path of their attributes and texts.
+
+    Args:
+        kind: Kind of the changes.
+        name: Name of the element in the second robot.
+        old: The element of the first robot.
+        new: The element of the second.
+        tolerance: Relative tolerance of numbers.
+        renamed: New names of parts by their old names.
+    """
+    before, after = _flatten_content(old, renamed), _flatten_content(new, {})
+    yield from _compare_flat(kind, name, before, after, tolerance, renamed)
+
+
 def _compare_blocks(
     tag: str,
     name: str,
@@ -55,6 +79,12 @@ def _compare_blocks(
         yield Change(tag, name, what, place=(two or one or [])[0].place)
         return
     before, after = _flatten_elements(one, renamed), _flatten_elements(two, {})
+    yield from _compare_flat(tag, name, before, after, tolerance, renamed)
+
+
+def _compare_flat(
+    tag: str, name: str, before: Flat, after: Flat, tolerance: float, renamed: Mapping[str, str]
+) -> Iterator[Change]:
     for path, old_name, new_name in _find_renamings(before, after):
         place = after[f"{path}[{new_name}]"][1].place
         yield Change(tag, name, path, old_name, new_name, place=place)
@@ -124,7 +154,17 @@ def _flatten_elements(elements: list[Element], renamed: Mapping[str, str]) -> Fl
     return found
 
 
-def _flatten(element: Element, above: str, found: Flat, renamed: Mapping[str, str]) -> None:
+def _flatten_content(element: Content, renamed: Mapping[str, str]) -> Flat:
+    """Return the attributes of an element, its text, and what is below it, by path."""
+    found: Flat = {f"@{name}": (value, element) for name, value in element.attributes.items()}
+    if element.text.strip():
+        found["text"] = " ".join(element.text.split()), element
+    for child in element.children:
+        _flatten(child, "", found, renamed)
+    return found
+
+
+def _flatten(element: Content, above: str, found: Flat, renamed: Mapping[str, str]) -> None:
     named = next((element.get(name) for name in _NAMING if element.get(name)), None)
     step = element.tag + (f"[{renamed.get(named, named)}]" if named else "")
     path, count = above + step, 1

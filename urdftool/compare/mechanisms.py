@@ -86,10 +86,14 @@ def _index_by_name(
                 values[key] = renamed.get(values[key], values[key])
         if "positions" in values:
             values["positions"] = {renamed.get(k, k): v for k, v in values["positions"].items()}
-        pair = f"{values.get('link', '')} – {values.get('other', number)}"
-        name = getattr(part, "name", "") or pair
+        name = getattr(part, "name", "") or _name_by_references(values, number)
         found.setdefault(name, (part, values))
     return found
+
+
+def _name_by_references(values: Mapping[str, Any], number: int) -> str:
+    """Return the parts that a part without a name concerns, or its number."""
+    return " – ".join(str(values[key]) for key in _REFERENCES if values.get(key)) or str(number)
 
 
 def _is_same(a: Any, b: Any, tolerance: float) -> bool:

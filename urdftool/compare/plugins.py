@@ -11,7 +11,7 @@ from ..model.numbers import parse_numbers
 from ..model.part import ZERO, Origin
 from ..model.plugins import is_part_of_robot, list_replacements, normalize_class
 from .bodies import Bodies
-from .difference import Comparison, Difference
+from .difference import EXISTENCE, Comparison, Difference
 from .pair import Pair, add_presence, locate
 from .settings import measure_text
 
@@ -57,7 +57,7 @@ def compare_plugins(pair: Pair, comparison: Comparison) -> None:
                 continue
             name = plugin.name or plugin.library
             add_presence(
-                comparison, _ROW, "plugin", "existence", number, plugin, name, plugin.library,
+                comparison, _ROW, "plugin", EXISTENCE, number, plugin, name, plugin.library,
                 owners=(plugin.owner, plugin.library),
             )  # fmt: skip
 

@@ -23,7 +23,7 @@ from ..model.settings import is_set
 from ..model.world import WORLD
 from .check import Check
 from .compare import compare_robots
-from .difference import Comparison, Difference
+from .difference import EXISTENCE, Comparison, Difference, name_part
 from .frames import describe_pose, make_matrix
 from .mesh_measure import MeshMeasures
 from .names import NameMap
@@ -230,8 +230,9 @@ def make_checks(source: Robot, comparison: Comparison, claims: Claims) -> list[C
 def describe(difference: Difference) -> str:
     """Describe a difference with both values."""
     one, two = difference.values
-    owner = f"{difference.kind} '{difference.name}': " if difference.name else ""
-    title = owner + difference.what
+    title = difference.title
+    if difference.what == EXISTENCE:
+        title = name_part(difference.kind, difference.name)
     if difference.is_convention or difference.row in GLOBAL_ROWS:
         return f"{title}: {difference.note}" if difference.note else title
     if two is None:

@@ -48,6 +48,7 @@ ROWS = (
     Row("configurations", "named joint positions, of two files of one format", 0.0),
     Row("plugins", "plugins of URDF and SDF: class and parameters", 0.0),
     Row("simulator data", "<gazebo>, <transmission>, <ros2_control> of two URDF", 0.0),
+    Row("other elements", "what only one format has: tendons, lights, what is copied", 1e-6),
     Row("mass matrix", "at 5 configurations, relative to the largest element", 1e-4),
     Row("gravity", "joint forces at 5 configurations, relative to the largest", 1e-4),
 )
@@ -58,7 +59,7 @@ GLOBAL_ROWS = ("mass matrix", "gravity")
 
 EQUIPMENT_ROWS = (
     *("sensors", "actuators", "contact pairs", "loops", "configurations", "plugins"),
-    *("simulator data", "world"),
+    *("simulator data", "other elements", "world"),
 )
 """Properties that are compared in two files of one format."""
 

@@ -18,7 +18,7 @@ from ..model.elements import Robot
 from ..model.mechanism import Camera, MountedSensor
 from ..model.sensors import KINDS, MAX_RAYS, get_kind, get_sensor_row
 from ..model.settings import Settings, Value, get_number
-from .difference import Comparison, Difference
+from .difference import EXISTENCE, Comparison, Difference
 from .frames import describe_motion, describe_pose, measure_largest
 from .origins import find_least_offset
 from .pair import Match, Pair, add_presence, locate
@@ -77,7 +77,7 @@ def compare_sensors(pair: Pair, comparison: Comparison) -> None:
         for sensor in left:
             owner = _get_owner(sensor.part)
             add_presence(
-                comparison, _ROW, _get_noun(sensor), "existence", side, sensor.part, sensor.name,
+                comparison, _ROW, _get_noun(sensor), EXISTENCE, side, sensor.part, sensor.name,
                 sensor.type, owners=(owner,),
             )  # fmt: skip
 

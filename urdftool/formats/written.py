@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -26,6 +26,8 @@ class Written:
         summary: Short properties of the model, such as ``12 actuators``.
         advice: Sentences about properties that the user may not expect.
         planned: The robot with every choice of the export; None if its writer makes none.
+        unread: What the robot does not hold of its source, and the export does not copy either;
+            None for all that the reader left out.
     """
 
     main: str
@@ -36,6 +38,7 @@ class Written:
     summary: list[str] = field(default_factory=list)
     advice: list[str] = field(default_factory=list)
     planned: Robot | None = field(default=None, repr=False)
+    unread: Sequence[Finding] | None = None
 
     @property
     def text(self) -> str:

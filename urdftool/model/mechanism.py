@@ -211,6 +211,7 @@ class NativeElement(Part):
         text: Its text.
         children: Its child elements.
         values: Values that the format's library computes of it, by name.
+        held: Attributes of it that another part of the robot has as values; None if there is none.
     """
 
     section: str = ""
@@ -219,8 +220,13 @@ class NativeElement(Part):
     text: str = ""
     children: list[NativeElement] = field(default_factory=list)
     values: dict[str, tuple[float, ...]] = field(default_factory=dict)
+    held: frozenset[str] | None = None
 
     @property
     def name(self) -> str:
         """Return its name; empty without one."""
-        return self.attributes.get("name", "")
+        return self.get("name") or ""
+
+    def get(self, name: str) -> str | None:
+        """Return an attribute as written; None without it."""
+        return self.attributes.get(name)

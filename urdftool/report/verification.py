@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..compare.difference import Comparison
+from ..compare.difference import Comparison, name_part
 from ..compare.rows import NOT_COMPARED
 from ..compare.several import Agreement, Disagreement
 from .counted import format_count
@@ -132,7 +132,7 @@ def _format_group(group: Sequence[Disagreement]) -> str:
     """Format an entry; of several, the names and the values and places of the first."""
     first = group[0]
     if len(group) == 1:
-        return _format_entry(first, f"{first.kind} '{first.name}': " if first.name else "")
+        return _format_entry(first, f"{name_part(first.kind, first.name)}: ")
     names = ", ".join(f"'{entry.name}'" for entry in group[:_NAMED])
     rest = f" and {len(group) - _NAMED} more" if len(group) > _NAMED else ""
     return _format_entry(first, f"{len(group)} {first.kind}s {names}{rest}: ")

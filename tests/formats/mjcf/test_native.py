@@ -8,8 +8,10 @@ from lxml import etree
 
 from measure.same_format import mjcf
 from measure.same_format.run import export_text, list_differing_fields
+from urdftool.compare.compare import compare_robots
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.read import read
+from urdftool.formats.mjcf.verify import verify
 from urdftool.formats.mjcf.write import write
 
 KEPT = (
@@ -62,24 +64,38 @@ CLASSES = """<mujoco><default><position kp="7"/><default class="strong"><positio
     ("old", "new", "text"),
     [
         ("", "", ""),
-        ('kp="7"', 'kp="8"', "<position>: actuator_gainprm"),
-        ('stiffness="3"', 'stiffness="4"', "<fixed> 't': tendon_stiffness"),
-        ('coef="1"', 'coef="2"', "<fixed> 't': <joint> differs"),
+        ('kp="7"', 'kp="8"', "joint actuator 'j': gain is 8, not 7"),
+        ('stiffness="3"', 'stiffness="4"', "<fixed> 't': tendon stiffness is"),
+        ('coef="1"', 'coef="2"', "<fixed> 't': joint/@coef is 2, not 1"),
         ('<fixed name="t"', '<fixed name="u"', "<fixed> 't' is missing"),
     ],
 )
 def test_classes_and_what_the_proof_finds(tmp_path, old, new, text):
-    from urdftool.formats.common.losses import DeclaredLosses
-    from urdftool.formats.mjcf.verify_native import check_native
-
     (tmp_path / "a.xml").write_text(CLASSES)
     source = read(tmp_path / "a.xml").robot
-    made = write(source, Options()).text
-    assert old in made
-    (tmp_path / "b.xml").write_text(made.replace(old, new, 1) if old else made)
-    check = check_native(source, read(tmp_path / "b.xml").robot, DeclaredLosses(), Options())
-    assert check.verdict == ("differs" if text else "equal")
-    assert text in " ".join(check.differing)
+    made = write(source, Options())
+    assert old in made.text
+    (tmp_path / "b.xml").write_text(made.text.replace(old, new, 1) if old else made.text)
+    checks = verify(source, made, tmp_path / "b.xml", made)
+    differing = [text for check in checks for text in check.differing]
+    assert bool(differing) == bool(text)
+    assert text in " ".join(differing)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "title"),
+    [
+        ('coef="1"', 'coef="2"', "<fixed> 't': joint/@coef"),
+        ('name="t"', 'name="u"', "<fixed> 't': existence"),
+        ('stiffness="3"', 'stiffness="4"', "<fixed> 't': tendon stiffness"),
+    ],
+)
+def test_two_files_are_compared_with_their_copied_elements(tmp_path, old, new, title):
+    (tmp_path / "a.xml").write_text(CLASSES)
+    (tmp_path / "b.xml").write_text(CLASSES.replace(old, new))
+    robots = [read(tmp_path / name).robot for name in ("a.xml", "b.xml")]
+    assert title in [d.title for d in compare_robots(*robots).differences]
+    assert compare_robots(robots[0], robots[0]).is_equal
 
 
 def test_what_a_copied_element_names_must_be_there(tmp_path):

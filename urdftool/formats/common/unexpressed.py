@@ -44,6 +44,7 @@ def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[s
         written: The export, which receives the losses.
         expressed: Codes after ``lossy-`` of the kinds that the writer expresses.
     """
+    written.unread = robot.unread
     written.losses += robot.unread
     if "setting" not in expressed:
         report_unwritten_settings(robot, written, lambda row: row.path)

@@ -5,12 +5,13 @@ Each attribute that ``read_native_table.py`` does not list as read is either cop
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.mechanism import NativeElement
+from ...model.part import Part
 from ...model.provenance import Written
 from ...model.settings import OF_WORLD
 from ...source.document import Element, parse
@@ -45,10 +46,25 @@ def add_native(context: Context, robot: Robot) -> None:
     """Add the elements that an export copies, and report what is not read."""
     text = _parse_text(context)
     robot.native = [*_list_sections(context, text), *_list_parts(context, text)]
+    _mark_held(robot)
     for root in text.roots:
         for section in root.children:
             if section.tag in COPIED:
                 _report_section(context, section)
+
+
+def _mark_held(robot: Robot) -> None:
+    """Set which attributes of the elements other parts of the robot have as values."""
+    parts: tuple[Sequence[Part], ...] = (
+        *(robot.joint_actuators, robot.mounted_sensors, robot.closures, robot.exclusions),
+        robot.configurations,
+    )
+    held = {part.place for of_kind in parts for part in of_kind}
+    for element in robot.native:
+        if element.section == "option":
+            element.held = _OPTIONS | {"flag"}
+        elif element.place in held:
+            element.held = READ_IN.get(element.section)
 
 
 def _parse_text(context: Context) -> _Text:

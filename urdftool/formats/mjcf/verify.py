@@ -27,7 +27,7 @@ from ..common.losses import DeclaredLosses, name_links
 from ..reading import Reading
 from ..written import Written
 from .compiled import Compiled, compile_all, copy_export
-from .copied import has_copied_home, list_copied, list_native, list_uncopied
+from .copied import has_copied_home, list_copied, list_uncopied
 from .declared_losses import EFFORT, EXCUSES, INERTIA, TORN
 from .options import Options
 from .read import read
@@ -36,7 +36,7 @@ from .verify_fuse import fuse_check
 from .verify_home import check_home
 from .verify_looks import check_material
 from .verify_meshes import SourceMeshes
-from .verify_native import check_native
+from .verify_native import keep_native, select_native
 from .verify_runs import check_runs
 from .verify_scene import check_scene
 from .write import write
@@ -117,10 +117,9 @@ def verify(
     assert again.planned is not None
     expected = _make_expected(robot, again.planned)
     reading = read(model)
+    expected.native = select_native(robot, options)
     checks = [*_compare_read(expected, written, reading)]
     declared = DeclaredLosses.from_findings(written.losses)
-    if list_native(robot):
-        checks.append(check_native(robot, reading.robot, declared, options))
     checks += _compare_compiled(robot, expected, written, model, options)
     checks.append(
         check_runs(
@@ -181,7 +180,8 @@ def _compare_read(expected: Robot, written: Written, reading: Reading) -> list[C
     losses = list(name_links(expected, written.losses))
     unread = list(list_uncopied(reading.robot, reading.losses))
     claims = Claims(losses, written.renamed, EXCUSES, unread)
-    return prove(expected, reading.robot, claims, rows=_choose_rows())
+    result = replace(reading.robot, native=keep_native(expected, reading.robot))
+    return prove(expected, result, claims, rows=_choose_rows())
 
 
 def _choose_rows() -> tuple[Row, ...]:

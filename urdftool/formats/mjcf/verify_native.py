@@ -1,131 +1,57 @@
-"""Comparison of the elements that an export of an MJCF copies: what is written, and what compiles.
-
-The values are those that MuJoCo computes of the source and of the export.
-"""
+"""Elements of MJCF that an export must hold: those of its source, and no other tendon or pair."""
 
 from __future__ import annotations
 
-import math
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterator
+from dataclasses import replace
 
-from ...compare.check import Check
 from ...model.elements import Robot
 from ...model.mechanism import NativeElement
-from ..common.losses import DeclaredLosses
+from ..common.drive_choice import AUTO
+from .copied import list_native
 from .options import Options
 from .read_native_table import MERGED
 
-TOLERANCE = 1e-6
-"""Tolerance of the values of MuJoCo, relative to the larger; chosen above rounding errors of
-points and poses that it computes."""
-
-_LOST = "lossy-mujoco-element"
 _NAMED = ("tendon", "contact")
 """Sections that only copies fill."""
 
 
-def check_native(source: Robot, result: Robot, declared: DeclaredLosses, options: Options) -> Check:
-    """Compare the copied elements of a source with those of its export.
+def select_native(source: Robot, options: Options) -> list[NativeElement]:
+    """Return the elements of a source that its export copies: all but replaced actuators."""
+    chosen = options.actuators in AUTO
+    return [e for e in list_native(source) if chosen or e.section != "actuator"]
 
-    Args:
-        source: The robot that was exported.
-        result: The robot of the file.
-        declared: Losses of the export.
-        options: Options of the export; other actuators or another home position are no difference.
+
+def keep_native(expected: Robot, result: Robot) -> list[NativeElement]:
+    """Return the elements of an export without those that the writer adds.
+
+    These are sensors, keys and other elements without a counterpart in the source, and further
+    attributes of settings and parts.
     """
-    what = (
-        "tendons, actuators, equalities, sensors, pairs, keys, settings: text and compiled values"
-    )
-    check = Check("MuJoCo's elements", what, TOLERANCE, is_empty=True)
-    here, there = _group(source), _group(result)
-    for section in here.keys() | {name for name in there if name in _NAMED}:
-        if section == "actuator" and options.actuators not in ("auto", "described"):
-            continue
-        merged = section == "" or section in MERGED
-        pairs = _match(here[section], there[section])
-        for one, two in pairs:
-            _compare(one, two, section, check, declared, part=merged)
-    return check
+    here: defaultdict[tuple[str, str, str], list[NativeElement]] = defaultdict(list)
+    for element in expected.native:
+        here[element.section, element.tag, element.name].append(element)
+    kept = []
+    for element in result.native:
+        found = here[element.section, element.tag, element.name]
+        other = found.pop(0) if found else None
+        if other is not None or element.section in _NAMED:
+            is_whole = other is None or element.section not in ("", *MERGED)
+            kept.append(element if is_whole or other is None else _restrict(element, other))
+    return kept
 
 
-def _group(robot: Robot) -> defaultdict[str, list[NativeElement]]:
-    found: defaultdict[str, list[NativeElement]] = defaultdict(list)
-    for element in robot.native:
-        if element.section != "default":
-            found[element.section].append(element)
-    return found
+def _restrict(element: NativeElement, source: NativeElement) -> NativeElement:
+    """Return an element with the attributes and children that the source has, too."""
+    attributes = {a: v for a, v in element.attributes.items() if a in source.attributes}
+    return replace(element, attributes=attributes, children=[*_pair(element, source)])
 
 
-def _match(
-    here: Sequence[NativeElement], there: Sequence[NativeElement]
-) -> list[tuple[NativeElement | None, NativeElement | None]]:
-    """Pair elements by tag and name, and those without a name in their order."""
-    rest: defaultdict[tuple[str, str], list[NativeElement]] = defaultdict(list)
-    for element in there:
-        rest[element.tag, element.name].append(element)
-    pairs: list[tuple[NativeElement | None, NativeElement | None]] = []
-    for element in here:
-        found = rest[element.tag, element.name]
-        pairs.append((element, found.pop(0) if found else None))
-    return [*pairs, *((None, element) for found in rest.values() for element in found)]
-
-
-def _compare(
-    one: NativeElement | None,
-    two: NativeElement | None,
-    section: str,
-    check: Check,
-    declared: DeclaredLosses,
-    *,
-    part: bool,
-) -> None:
-    if one is None:
-        if two is not None and section in _NAMED:
-            check.compare(math.inf, f"{_describe(two)} is not in the source")
-        return
-    known = declared.has_for((_LOST,), one.name)
-    if two is None:
-        check.compare(math.inf, f"{_describe(one)} is missing", known=known)
-        return
-    text = _find_difference(one, two, part=part)
-    check.compare(math.inf if text else 0.0, f"{_describe(one)}: {text}", known=known)
-    for name, value in one.values.items():
-        off = _measure(value, two.values.get(name, ()))
-        check.compare(off, f"{_describe(one)}: {name} differs by {off:.3g}", known=known)
-
-
-def _describe(element: NativeElement) -> str:
-    return f"<{element.tag}>" + (f" '{element.name}'" if element.name else "")
-
-
-def _find_difference(one: NativeElement, two: NativeElement, *, part: bool) -> str:
-    """Return the first attribute or child that differs; of a part, only those of the source."""
-    names = one.attributes if part else one.attributes.keys() | two.attributes.keys()
-    for name in sorted(set(names) - {"class"}):
-        if not _is_same(one.attributes.get(name), two.attributes.get(name)):
-            return f"{name} is {two.attributes.get(name)}, not {one.attributes.get(name)}"
-    for child, other in _match(one.children, two.children):
-        if child is None and not part:
-            return "it has more children"
-        if child is not None and (other is None or (_find_difference(child, other, part=part))):
-            return f"<{child.tag}> differs"
-    return ""
-
-
-def _is_same(one: str | None, two: str | None) -> bool:
-    """Tell whether two values are the same text or numbers."""
-    if one == two or one is None or two is None:
-        return one == two
-    try:
-        return [*map(float, one.split())] == [*map(float, two.split())]
-    except ValueError:
-        return False
-
-
-def _measure(one: Sequence[float], two: Sequence[float]) -> float:
-    """Return the largest difference of values relative to the larger; inf if some are missing."""
-    if len(one) != len(two):
-        return math.inf
-    return max((abs(a - b) / max(abs(a), abs(b), 1.0) for a, b in zip(one, two, strict=True)),
-               default=0.0)  # fmt: skip
+def _pair(element: NativeElement, source: NativeElement) -> Iterator[NativeElement]:
+    left = list(source.children)
+    for child in element.children:
+        other = next((one for one in left if (one.tag, one.name) == (child.tag, child.name)), None)
+        if other is not None:
+            left.remove(other)
+            yield _restrict(child, other)
