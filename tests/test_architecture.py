@@ -86,8 +86,8 @@ BELOW = {
         *("rules", "source", *BASE),
     ),
     "report": (
-        *("graph", "info", "compare", "edit", "lint", "rules", "finding", "model", "source"),
-        *("formats", "srdf"),
+        *("bundle", "graph", "info", "compare", "edit", "lint", "rules", "finding", "model"),
+        *("formats", "srdf", "source"),
         *("collision", "inertia", "mechanics", *BASE),
     ),
     "info": ("model", "geometry", *BASE),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -15,8 +16,14 @@ from ..model.elements import Robot
 from ..source.document import Element, parse, read_file
 from ..source.packages import find_own_package
 from .collect import is_outside
-from .defect import Defect
-from .manifest import MANIFEST, compute_digest, parse_manifest, read_digests
+from .defect import OF_SOURCE, Defect
+from .manifest import (
+    MANIFEST,
+    compute_digest,
+    list_known_missing,
+    parse_manifest,
+    read_digests,
+)
 from .output import is_zip
 from .references import find_references, has_references, list_readings
 from .zip_file import open_zip
@@ -118,9 +125,19 @@ def _find_defects(folder: Path) -> Iterator[Defect]:
         elif not path.is_file() or compute_digest(path) != digests[inner]:
             yield Defect("changed-file", inner, "was changed since it was bundled")
         else:
-            yield from _check_references(folder, inner, path)
+            known = list_known_missing(document).get(inner, set())
+            yield from (
+                _mark_known(defect, known) for defect in _check_references(folder, inner, path)
+            )
     if document["description"] not in present:
         yield Defect("missing-file", document["description"], "the description does not exist")
+
+
+def _mark_known(defect: Defect, known: set[str]) -> Defect:
+    """Return a defect as one of the source if its reference had no file there either."""
+    if defect.code != "missing-reference" or defect.written not in known:
+        return defect
+    return replace(defect, code=OF_SOURCE, message=f"'{defect.written}' is missing in the source")
 
 
 def _check_references(folder: Path, inner: str, path: Path) -> Iterator[Defect]:
@@ -203,7 +220,8 @@ def _check_reference(
         message = f"'{written}' points out of the bundle"
         yield Defect("points-out", inner, message)
     else:
-        yield Defect("missing-reference", inner, f"'{written}' does not exist in the bundle")
+        message = f"'{written}' does not exist in the bundle"
+        yield Defect("missing-reference", inner, message, written)
 
 
 def _resolve(folder: Path, base: Path, name: str) -> Path | None:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+OF_SOURCE = "missing-in-source"
+"""Code of a reference without a file in the source."""
+
 
 @dataclass(frozen=True)
 class Defect:
@@ -13,11 +16,18 @@ class Defect:
         code: Kind of the defect, such as ``missing-file``.
         path: File in the bundle.
         message: Sentence about the file.
+        written: Reference that it concerns, as written; empty for none.
     """
 
     code: str
     path: str
     message: str
+    written: str = ""
+
+    @property
+    def is_of_source(self) -> bool:
+        """Tell whether the source has the defect, too, so that the bundle is complete."""
+        return self.code == OF_SOURCE
 
     def __str__(self) -> str:
         """Return ``FILE: message [code]``."""

@@ -14,13 +14,20 @@ from ..finding import Finding
 from ..model.elements import Mesh, Robot
 from ..refusal import refuse
 from ..source.document import STDIN
+from ..source.location import SourceFile
 from ..storage import cache_folder
 from .collect import Collection, collect
 from .description import format_comment, make_urdf, rewrite
 from .layout import make_portable
 from .limits import Limits
 from .manifest import MANIFEST, Manifest, compute_digest
-from .origin import find_licenses, find_repositories, list_declared_licenses, name_source
+from .origin import (
+    find_licenses,
+    find_repositories,
+    list_declared_licenses,
+    name_source,
+    report_licenses,
+)
 from .presets import PRESETS, Uri
 from .ros_package import make_package_files
 from .source_folders import list_source_folders, replace_folders
@@ -28,6 +35,9 @@ from .store import Content, Conversion, Stored, store_assets
 
 if TYPE_CHECKING:
     from .mesh_formats import MeshFormat
+
+_OF_ORIGIN = ("sources", "before", "missing")
+"""Fields of a file in ``bundle.json`` in addition to its digest and size."""
 
 PACKAGE_NAME = re.compile(r"[a-z][a-z0-9_]*")
 
@@ -105,7 +115,7 @@ def make_bundle(
     name = make_portable(robot.name, "robot")
     folder = "urdf/" if options.uri_form == "package" else ""
     description = f"{folder}{name}.urdf"
-    file = make_urdf(robot, description)
+    file, changes = _change_for_reader(make_urdf(robot, description), robot, options)
     package = _choose_package_name(options, name)
     found = collect(robot)
     refuse(found.defects, force=options.force, fatal=frozenset())
@@ -140,6 +150,8 @@ def make_bundle(
         name: replace_folders(value, own_folders) for name, value in manifest.arguments.items()
     }
     bundle.notes = [*found.notes, *found.defects, *_report_conversions(robot, found, stored)]
+    bundle.notes += changes
+    bundle.manifest.changes += [change.message for change in changes]
     _add_origin(bundle, source_robot, stored)
     if options.uri_form == "package":
         licenses = [text for texts in bundle.manifest.licenses.values() for text in texts]
@@ -147,6 +159,19 @@ def make_bundle(
         bundle.files |= make_package_files(package, robot.name, description, licenses, folders)
     add_manifest(bundle)
     return bundle
+
+
+def _change_for_reader(
+    file: SourceFile, robot: Robot, options: BundleOptions
+) -> tuple[SourceFile, list[Finding]]:
+    """Return a URDF with the changes that the preset requires, and a finding for each."""
+    change = PRESETS[options.preset].change if options.preset else None
+    if change is None:
+        return file, []
+    assert robot.source is not None
+    is_plain = robot.source.expansion is None
+    path = robot.source.document.file.path if is_plain else file.path
+    return change(SourceFile(path, file.data))
 
 
 def add_manifest(bundle: Bundle) -> None:
@@ -157,7 +182,7 @@ def add_manifest(bundle: Bundle) -> None:
         known = files.get(path, {})
         digest = known.get("sha256", "") if isinstance(content, Path) else ""
         facts = {"sha256": digest or compute_digest(content), "bytes": get_size(content)}
-        files[path] = {**facts, **{k: known[k] for k in ("sources", "before") if k in known}}
+        files[path] = {**facts, **{k: known[k] for k in _OF_ORIGIN if k in known}}
     bundle.files[MANIFEST] = bundle.manifest.to_json()
 
 
@@ -256,6 +281,8 @@ def _add_origin(bundle: Bundle, robot: Robot, stored: Stored) -> None:
             names[path] = manifest.source if is_generated else name_source(path, description)
         found = list(dict.fromkeys(names[path] for path in paths))
         manifest.files[place] = {"sources": found, "sha256": stored.digests[place]}
+        if missing := stored.missing.get(place):
+            manifest.files[place]["missing"] = missing
         if place in stored.reductions:  # without the fields that do not apply
             change = asdict(stored.reductions[place])
             manifest.files[place]["before"] = {k: v for k, v in change.items() if v is not None}
@@ -269,4 +296,5 @@ def _add_origin(bundle: Bundle, robot: Robot, stored: Stored) -> None:
     for place, path in licenses.items():
         manifest.files[place] = {"sources": [name_source(path, description)]}
     manifest.licenses = list_declared_licenses(names)
+    bundle.notes += report_licenses(names, licenses.values(), manifest.licenses)
     manifest.repositories = find_repositories(names)

@@ -27,7 +27,8 @@ class Manifest:
         source: Name of the source description.
         arguments: xacro arguments.
         options: Options that differ from their defaults.
-        files: Digest, size [bytes] and sources of each file, by path.
+        files: Digest, size [bytes] and sources of each file, and its references to files that the
+            source does not have (``missing``), by path.
         licenses: Licenses that the packages of the sources declare.
         repositories: Git commits of the sources.
         changes: Changes of the description other than URIs.
@@ -81,6 +82,16 @@ def read_digests(data: bytes) -> dict[str, str] | None:
     if document is None:
         return None
     return {entry["path"]: entry["sha256"] for entry in document["files"]}
+
+
+def list_known_missing(document: Mapping[str, Any]) -> dict[str, set[str]]:
+    """Return the references that had no file in the source either, by path of the file."""
+    found = {}
+    for entry in document["files"]:
+        missing = entry.get("missing")
+        if isinstance(missing, list):
+            found[entry["path"]] = {name for name in missing if isinstance(name, str)}
+    return found
 
 
 def parse_manifest(data: bytes) -> Mapping[str, Any] | None:

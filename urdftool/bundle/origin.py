@@ -9,8 +9,11 @@ from dataclasses import dataclass, field
 from hashlib import sha1, sha256
 from pathlib import Path
 
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..git_command import run_git
 from ..projects import find_repository
+from ..source.location import Place, SourceFile
 from ..source.packages import find_own_package
 from ..storage import read_regular_file
 from ..workspace import Workspace
@@ -98,6 +101,52 @@ def list_declared_licenses(sources: Iterable[Path]) -> dict[str, list[str]]:
         ]
         found[own[0]] = [name for name in names if name]
     return dict(sorted(found.items()))
+
+
+def report_licenses(
+    sources: Iterable[Path], files: Iterable[Path], declared: Mapping[str, list[str]]
+) -> list[Finding]:
+    """Return a finding for each package without a license, and each license that is to be done.
+
+    Args:
+        sources: Source files, the description first.
+        files: License files that were found.
+        declared: Licenses that the packages declare, of ``list_declared_licenses``.
+    """
+    folders = {os.path.realpath(path.parent) for path in files}
+    found: dict[str, Finding] = {}
+    for path in sources:
+        own = find_own_package(path)
+        name, root = own or ("", path.parent)
+        texts = declared.get(name, [])
+        to_do = _find_to_do(texts)
+        if name in found or (texts and not to_do):
+            continue
+        if to_do:
+            text = f"package '{name}' declares the license '{to_do}', which grants nothing"
+        elif _has_license(Path(os.path.realpath(root)), folders):
+            continue
+        else:
+            what = f"package '{name}'" if name else "the description"
+            text = f"{what} has no license: the receiver of the bundle may not know what is allowed"
+        found[name] = _make_license_finding(root / "package.xml" if name else path, text)
+    return list(found.values())
+
+
+def _has_license(folder: Path, folders: set[str]) -> bool:
+    """Tell whether a license file is in a folder, above or below it."""
+    above = {str(folder), *map(str, folder.parents)}
+    return any(place in above or Path(place).is_relative_to(folder) for place in folders)
+
+
+def _find_to_do(licenses: Iterable[str]) -> str:
+    """Return the license that is a placeholder, as ``ros2 pkg create`` writes; empty if none is."""
+    return next((text for text in licenses if text.upper().startswith("TODO")), "")
+
+
+def _make_license_finding(path: Path, text: str) -> Finding:
+    place = Place(SourceFile(os.path.relpath(path), b""), 0, 0)
+    return Finding("no-license", Severity.WARNING, text, place, "file")
 
 
 def find_repositories(sources: Mapping[Path, str]) -> list[Repository]:

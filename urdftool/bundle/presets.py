@@ -9,10 +9,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from ..errors import MeshError
+from ..finding import Finding
 from ..geometry.stl_header import read_stl_header
+from ..source.location import SourceFile
+from .drake import change_for_drake
 
 if TYPE_CHECKING:
     from .mesh_formats import MeshFormat
+
+Change = Callable[[SourceFile], tuple[SourceFile, list[Finding]]]
+"""Returns a URDF that a reader loads, and a finding for each change."""
 
 Uri = Literal["relative", "package", "file"]
 """How the URDF of a bundle names its files."""
@@ -33,6 +39,7 @@ class Preset:
         suffixes: Suffixes of meshes that the reader reads as RViz does.
         is_readable: Further condition for a mesh with such a suffix.
         reason: Sentence for the documentation.
+        change: Changes the URDF where the reader refuses what others read; None if it needs none.
     """
 
     uri: Uri
@@ -40,6 +47,7 @@ class Preset:
     suffixes: tuple[str, ...]
     reason: str
     is_readable: Callable[[Path], bool] = bool
+    change: Change | None = None
 
     def is_accepted(self, path: Path) -> bool:
         """Tell whether a mesh needs no conversion."""
@@ -80,6 +88,7 @@ PRESETS = {
         "obj",
         (".obj", ".gltf", ".glb"),
         "Drake reads OBJ and glTF; STL and COLLADA are ignored or rejected",
+        change=change_for_drake,
     ),
     "isaac": Preset(
         "relative",

@@ -76,6 +76,8 @@ class Stored:
         losses: What a converted mesh lost, by asset.
         failed: Why a mesh was not converted, by asset.
         unreached: How many triangles a mesh has that has more than the limit, by asset.
+        missing: References to files that the source does not have, as written in the bundle, by
+            path.
     """
 
     places: dict[Asset, str] = field(default_factory=dict)
@@ -87,6 +89,7 @@ class Stored:
     losses: dict[Asset, tuple[str, ...]] = field(default_factory=dict)
     failed: dict[Asset, str] = field(default_factory=dict)
     unreached: dict[Asset, str] = field(default_factory=dict)
+    missing: dict[str, list[str]] = field(default_factory=dict)
 
 
 def store_assets(
@@ -132,7 +135,10 @@ class _Store:
             content = rewrite_references(asset.suffix, asset.path.read_bytes(), names)
         if asset.suffix == ".dae":
             content = _drop_author_paths(content)
-        return self._put(asset, *self._shrink(asset, content))
+        place = self._put(asset, *self._shrink(asset, content))
+        if missing := [names[written] for written, other in asset.references.items() if not other]:
+            self.stored.missing[place] = missing
+        return place
 
     def _add_mesh(self, asset: Asset) -> str:
         """Store a mesh that changes; return its path, or "" if it stays as it is."""

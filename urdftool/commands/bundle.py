@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -15,14 +17,18 @@ from .options import add_gltf_option, add_package_options, add_robot_argument
 from .read_other import read_any
 
 if TYPE_CHECKING:
+    from ..bundle.defect import Defect
     from ..bundle.make import Bundle, BundleOptions
     from ..finding import Finding
     from ..model.elements import Robot
 
 PRESET_NAMES = ("mujoco", "pybullet", "drake", "isaac", "genesis", "web", "foxglove")
 
+_LONG = 5.0
+"""Time [s] of a check from which it is printed. Chosen, no source."""
+
 _GROUPS = {
-    "Output": "output formats srdf preset uri package_name meshes overwrite",
+    "Output": "output formats srdf preset uri package_name meshes overwrite as_json",
     "Size": "max_triangles max_error max_texture",
     "Verification": "check force",
 }
@@ -35,9 +41,9 @@ _GROUPS = {
     "--format",
     "formats",
     multiple=True,
-    type=click.Choice(("urdf", "sdf", "mjcf")),
+    type=click.Choice(("urdf", "sdf", "mjcf", "json")),
     metavar="FORMAT",
-    help="Add the robot as sdf or mjcf to the URDF. Repeatable.",
+    help="Add the robot as sdf or mjcf to the URDF; json prints the report as JSON. Repeatable.",
 )
 @click.option("--srdf", type=Path, metavar="FILE", help="Add a MoveIt SRDF; xacro is expanded.")
 @click.option(
@@ -94,6 +100,7 @@ _GROUPS = {
 @click.option(
     "--force", is_flag=True, help="Leave out visuals and collisions whose mesh file is missing."
 )
+@click.option("--json", "as_json", is_flag=True, help="Print the report as JSON, as --format json.")
 @add_gltf_option
 @add_package_options
 @click.pass_obj
@@ -108,6 +115,7 @@ def command(
     overwrite: bool,
     formats: tuple[str, ...],
     srdf: Path | None,
+    as_json: bool,
     **choices: Any,
 ) -> int:
     """Write the robot IN with all meshes, textures and licenses into one folder or zip file.
@@ -127,9 +135,11 @@ def command(
     from ..refusal import Refused
     from .export_report import report_refused, restore_output
 
+    as_json = as_json or "json" in formats
+    formats = tuple(name for name in formats if name != "json")
     if output is None:
         if check and is_bundle(robot[0]):
-            return _check(console, robot[0])
+            return _finish(console, robot[0], None, check=True, as_json=as_json)
         raise click.UsageError("missing option -o OUT: a folder or a .zip file")
     options = _make_options(output, choices)
     model = require_purpose(read_any(console, robot, package, package_path), "links")
@@ -145,6 +155,8 @@ def command(
                     add_srdf(bundle, model, srdf)
                 add_formats(bundle, formats, force=options.force, srdf=srdf)
         except Refused as refused:
+            if as_json:
+                _print_json(None, {}, refused.findings, None)
             return report_refused(console, refused.findings, as_json=False)
         _report_notes(console, bundle)
         if options.limits.is_set:
@@ -152,7 +164,7 @@ def command(
         restore_output(console, output)
         write_bundle(output, bundle, overwrite=overwrite)
         _report(console, bundle, output)
-        return _check(console, output, model) if check else 0
+        return _finish(console, output, bundle, check=check, as_json=as_json, source=model)
 
 
 def _convert(robot: Robot, folder: Path, force: bool) -> tuple[Robot | None, Robot, list[Finding]]:
@@ -234,21 +246,59 @@ def _report(console: Console, bundle: Bundle, output: str) -> None:
     console.print_note(f"{output}: {bundle.description}, {count}, {total / 1e6:.1f} MB")
 
 
-def _check(console: Console, path: str, source: Robot | None = None) -> int:
-    """Verify a bundle, compare it with its source, and print its defects; return the exit code."""
+def _finish(
+    console: Console,
+    output: str,
+    bundle: Bundle | None,
+    *,
+    check: bool,
+    as_json: bool,
+    source: Robot | None = None,
+) -> int:
+    """Verify a bundle if that is asked, print its defects or the report; return the exit code."""
+    start = perf_counter()
+    defects = _find_defects(console, output, source) if check else []
+    if as_json:
+        findings, files = (bundle.notes, bundle.manifest.files) if bundle else ([], {})
+        _print_json(output, files, findings, defects if check else None)
+    elif check:
+        _report_defects(console, output, defects, perf_counter() - start)
+    return int(not all(defect.is_of_source for defect in defects))
+
+
+def _print_json(
+    output: str | None,
+    files: Mapping[str, Mapping[str, Any]],
+    findings: Sequence[Finding],
+    defects: Sequence[Defect] | None,
+) -> None:
+    from ..report.bundle import to_json
+
+    click.echo(to_json(output, files, findings, defects), nl=False)
+
+
+def _find_defects(console: Console, path: str, source: Robot | None) -> list[Defect]:
+    """Verify a bundle, and compare it with its source if that is given and yourdfpy is there."""
     from ..bundle.check import check_bundle
     from ..extras import install_command, is_installed
-    from ..report.counted import format_count
 
     if source is not None and not is_installed("yourdfpy"):
         why = f"yourdfpy is not installed: {install_command('mesh')}"
         console.print_note(f"{path}: not compared with the source; {why}")
         source = None
-    defects = check_bundle(path, source)
-    for line in defects:
-        click.echo(line)
-    if not defects:
-        console.print_note(f"{path}: complete")
-        return 0
-    console.print_note(f"{path}: {format_count(len(defects), 'defect')}")
-    return 1
+    return check_bundle(path, source)
+
+
+def _report_defects(console: Console, path: str, defects: Sequence[Defect], seconds: float) -> None:
+    """Print the defects of a bundle, and its verdict with the time if that is long."""
+    from ..report.counted import format_count
+
+    for defect in defects:
+        if defect.is_of_source:
+            console.print_note(f"{path}/{defect}")
+        else:
+            click.echo(defect)
+    count = sum(not defect.is_of_source for defect in defects)
+    verdict = format_count(count, "defect") if count else "complete"
+    time = f" (checked in {seconds:.0f} s)" if seconds >= _LONG else ""
+    console.print_note(f"{path}: {verdict}{time}")
