@@ -28,7 +28,7 @@ def for_each_module(test):
 
 
 BASE = (
-    *("control_characters", "errors", "extras", "suggestions", "parallel", "cluster"),
+    *("control_characters", "errors", "extras", "suggestions", "arguments", "parallel", "cluster"),
     *("cluster_child", "landlock", "isolated"),
     *(
         "limited",

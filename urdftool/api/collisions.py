@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from ..arguments import check_arguments
 from ..collision.compute import Result
 from ..collision.settings import Settings
 from ..model.elements import Robot
-from .places import check_jobs, list_words
+from .places import check_jobs, check_settings, list_words
 
 
+@check_arguments
 def simplify_collisions(
     robot: Robot,
     output: str | Path,
@@ -64,6 +66,7 @@ def simplify_collisions(
     from ..storage import DiskCache, cache_folder
 
     check_jobs(jobs)
+    check_settings(settings, Settings)
     require("simplify_collisions", "scipy", "manifold3d")
     if robot.source is None:
         raise ModelError("the robot was not read from a description; use urdftool.load")

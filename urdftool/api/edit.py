@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..arguments import check_arguments
 from ..edit.draft import Draft, open_draft
 from ..edit.finish import Edited, finish, is_xacro_name
 from ..model.elements import Robot, Vector
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 Paths = Iterable[str | Path]
 
 
+@check_arguments
 def attach(
     robot: Robot,
     other: Robot,
@@ -95,6 +97,7 @@ def _attach(
     return edited
 
 
+@check_arguments
 def prefix(
     robot: Robot, text: str, *, files: Paths = (), output: str | Path | None = None
 ) -> Edited:
@@ -121,6 +124,7 @@ def prefix(
     return prefix_in_xacro(robot, text, make, output)
 
 
+@check_arguments
 def merge_fixed(
     robot: Robot,
     *,
@@ -149,6 +153,7 @@ def merge_fixed(
     return _run(robot, change, files, output)
 
 
+@check_arguments
 def change_root(
     robot: Robot,
     link: str,
@@ -175,6 +180,7 @@ def change_root(
     return _run(robot, lambda draft: take_root(draft, link, move_frames=move_frames), files, output)
 
 
+@check_arguments
 def mirror(
     robot: Robot,
     plane: str = "xz",
@@ -221,6 +227,7 @@ def mirror(
     return finish(draft, [(robot, _get_path(robot), draft.lines)], output)
 
 
+@check_arguments
 def change_zero(
     robot: Robot,
     positions: Mapping[str, float],
@@ -246,6 +253,7 @@ def change_zero(
     return _run(robot, lambda draft: change_positions(draft, changes), files, output)
 
 
+@check_arguments
 def reverse_sign(
     robot: Robot, joints: Iterable[str], *, files: Paths = (), output: str | Path | None = None
 ) -> Edited:
@@ -267,6 +275,7 @@ def reverse_sign(
     return _run(robot, lambda draft: change_positions(draft, changes), files, output)
 
 
+@check_arguments
 def cut(
     robot: Robot,
     link: str,
@@ -292,6 +301,7 @@ def cut(
     return _run(robot, lambda draft: cut_branch(draft, link, force=force), files, output)
 
 
+@check_arguments
 def round_numbers(
     robot: Robot, tolerance: float = 1e-9, *, output: str | Path | None = None
 ) -> Edited:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ..arguments import check_arguments
 from ..source.document import STDIN, read_file
 from ..source.packages import Packages
 from .places import check_places
 
 
+@check_arguments
 def expand(
     path: str | Path,
     *,

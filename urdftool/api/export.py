@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..arguments import check_arguments
 from ..formats.written import Written
 from ..model.elements import Robot
 from ..model.world import weld_base
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from ..formats.sdf.options import ChosenBase, FixedJoints, Target, Uri
 
 
+@check_arguments
 def export_sdf(
     robot: Robot,
     output: str | Path | None = None,
@@ -92,6 +94,7 @@ def export_sdf(
     return written
 
 
+@check_arguments
 def export_mjcf(
     robot: Robot,
     output: str | Path | None = None,

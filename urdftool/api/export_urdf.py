@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..arguments import check_arguments
 from ..formats.urdf.options import HARDWARE
 from ..formats.written import Written
 from ..model.elements import Robot
 
 
+@check_arguments
 def export_urdf(
     robot: Robot,
     output: str | Path | None = None,

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..arguments import check_arguments
 from ..formats.written import Written
 from ..model.elements import Robot
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from ..formats.usd.options import Approximation, Layers, Target
 
 
+@check_arguments
 def export_usd(
     robot: Robot,
     output: str | Path | None = None,

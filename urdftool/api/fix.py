@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ..arguments import check_arguments
 from ..lint.fix_run import FixedDescription
 from ..source.description import GltfUp
 from .places import check_places, list_words
 
 
+@check_arguments
 def fix(
     path: str | Path,
     *,

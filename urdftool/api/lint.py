@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ..arguments import check_arguments
 from ..errors import ConfigError
 from ..finding import Finding
 from ..formats.detect import read_other_format
@@ -17,6 +18,7 @@ from ..source.description import GltfUp
 from .places import check_places, list_words
 
 
+@check_arguments
 def check(
     robot: Robot | str | Path,
     *,

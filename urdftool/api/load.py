@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ..arguments import check_arguments
 from ..errors import ConfigError
 from ..formats.detect import read_other_format
 from ..model.elements import Robot
@@ -15,6 +16,7 @@ from ..source.packages import Packages
 from .places import check_places
 
 
+@check_arguments
 def load(
     path: str | Path,
     *,

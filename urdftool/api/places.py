@@ -50,6 +50,13 @@ def list_words(name: str, words: Iterable[str]) -> list[str]:
     return list(words)
 
 
+def check_settings(settings: object, kind: type) -> None:
+    """Raise ConfigError if settings are neither None nor of a class."""
+    if settings is not None and not isinstance(settings, kind):
+        name = f"{kind.__module__}.{kind.__qualname__}"
+        raise ConfigError(f"settings is {settings!r}, which is not a {name}")
+
+
 def check_jobs(jobs: int | None) -> None:
     """Raise ConfigError if a number of processes is not a number of at least 1."""
     if jobs is not None:
@@ -67,4 +74,4 @@ def _refuse_text(name: str, value: object) -> None:
 
 
 def _warn(message: str) -> None:
-    warnings.warn(message, UserWarning, stacklevel=4)  # the line that called the API
+    warnings.warn(message, UserWarning, stacklevel=5)  # the line that called the API

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import check_arguments
 from ..model.elements import Robot
 
 if TYPE_CHECKING:
     import trimesh
 
 
+@check_arguments
 def to_scene(
     robot: Robot, positions: Mapping[str, float] | None = None, *, collision: bool = False
 ) -> trimesh.Scene:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import check_arguments
 from ..model.elements import Robot
 from ..simulation.settings import Settings
 from ..simulation.verdict import Verdict
+from .places import check_settings
 from .start import choose_start
 
 if TYPE_CHECKING:
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from ..simulation.run import Run
 
 
+@check_arguments
 def simulate(
     robot: Robot, settings: Settings | None = None, *, engine: str | None = None
 ) -> list[Verdict]:
@@ -46,6 +49,7 @@ def simulate(
     from ..simulation.verdict import judge
     from ..suggestions import suggest_name
 
+    check_settings(settings, Settings)
     engine = engine or choose_default_engine()
     if engine not in REGISTRY:
         hint = suggest_name(engine, REGISTRY)

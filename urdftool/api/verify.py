@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..arguments import check_arguments
 from ..errors import ConfigError
 from ..model.elements import Robot
 from ..suggestions import require_number
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from ..compare.several import Agreement
 
 
+@check_arguments
 def verify(
     *robots: Robot | str | Path,
     only: Iterable[str] = (),

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 OF_SOURCE = "missing-in-source"
 """Code of a reference without a file in the source."""
 
+UNREADABLE_SOURCE = "unreadable-source"
+"""Code of a source with which the bundle cannot be compared."""
+
 
 @dataclass(frozen=True)
 class Defect:
@@ -26,8 +29,8 @@ class Defect:
 
     @property
     def is_of_source(self) -> bool:
-        """Tell whether the source has the defect, too, so that the bundle is complete."""
-        return self.code == OF_SOURCE
+        """Tell whether the source has the defect, too, so that the bundle may be complete."""
+        return self.code in (OF_SOURCE, UNREADABLE_SOURCE)
 
     def __str__(self) -> str:
         """Return ``FILE: message [code]``."""

@@ -16,6 +16,7 @@ from ..refusal import refuse
 from ..source.document import STDIN
 from ..source.location import SourceFile
 from ..storage import cache_folder
+from .author_paths import drop_paths_in_comments
 from .collect import Collection, collect
 from .description import format_comment, make_urdf, rewrite
 from .layout import make_portable
@@ -134,7 +135,7 @@ def make_bundle(
     relative = options.uri_form == "relative" and any(
         a.kind == "mesh" for a in found.assets.values()
     )
-    bundle.files[description] = rewrite(
+    text = rewrite(
         file,
         uris,
         found.missing,
@@ -143,6 +144,7 @@ def make_bundle(
         strippath=relative,
         folders=own_folders,
     )
+    bundle.files[description] = drop_paths_in_comments(text)
     if relative:
         bundle.manifest.changes.append('<compiler strippath="false"/> in <mujoco>')
     bundle.manifest.missing = sorted(replace_folders(uri, own_folders) for uri in found.missing)

@@ -17,7 +17,7 @@ from ..extras import require
 from ..geometry.mesh import Array
 from ..model.elements import Joint, Robot
 from ..model.kinematics import add_mimic_positions, find_movable_joints, link_poses
-from .defect import Defect
+from .defect import UNREADABLE_SOURCE, Defect
 from .description import make_urdf
 
 CONFIGURATIONS = 21
@@ -81,11 +81,15 @@ def compare_with_source(
 
     both = {"load_collision_meshes": True, "build_collision_scene_graph": True}
     try:
-        with _without_messages():
-            bundle = yourdfpy.URDF.load(str(description), **both)
-            source = load_robot(robot, **both)
+        source = load_robot(robot, **both)
     except UrdftoolError:
         raise
+    except Exception as error:
+        message = f"not compared: yourdfpy cannot read the source: {error}"
+        return [Defect(UNREADABLE_SOURCE, path, message)]
+    try:
+        with _without_messages():
+            bundle = yourdfpy.URDF.load(str(description), **both)
     except Exception as error:
         return [Defect("unreadable", path, f"yourdfpy cannot read it: {error}")]
     found = list(_compare_names(robot, bundle))

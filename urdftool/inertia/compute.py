@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ..arguments import check_arguments
 from ..errors import UrdftoolError
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..model.elements import Link
@@ -18,6 +19,7 @@ from .pieces import SOURCES, LinkBody, get_shapes, link_body, list_mesh_names
 from .requirements import require_consistent
 
 
+@check_arguments
 def compute_inertia(
     link: Link,
     *,

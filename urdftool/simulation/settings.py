@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING
 
+from ..arguments import require_kind
 from ..suggestions import require_number, require_word
 
 if TYPE_CHECKING:
@@ -88,6 +89,8 @@ class Settings:
 
     def __post_init__(self) -> None:
         """Raise ConfigError if a value is not allowed."""
+        for one in fields(self):
+            require_kind(one.name, getattr(self, one.name), str(one.type))
         require_word("hold", self.hold, HOLDS)
         for name, (least, most) in RANGES.items():
             require_number(name, getattr(self, name), least, most)

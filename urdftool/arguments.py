@@ -1,0 +1,89 @@
+"""Checks of the arguments of functions of the Python API, by their annotations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import wraps
+from numbers import Integral, Real
+from os import PathLike
+from typing import Any, ParamSpec, TypeVar
+
+from .errors import ConfigError
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def _is_list(value: object) -> bool:
+    return isinstance(value, Iterable) and not isinstance(value, str | bytes | PathLike | Mapping)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+_KINDS: Mapping[str, tuple[Callable[[Any], bool], str]] = {
+    "None": (lambda value: value is None, "None"),
+    "bool": (lambda value: isinstance(value, bool), "True or False"),
+    "str": (lambda value: isinstance(value, str), "text"),
+    "Path": (lambda value: isinstance(value, PathLike), "a path"),
+    "int": (lambda value: isinstance(value, Integral) and _is_number(value), "a whole number"),
+    "float": (_is_number, "a finite number"),
+    "Mapping": (lambda value: isinstance(value, Mapping), "a dict of values by name"),
+    "dict": (lambda value: isinstance(value, Mapping), "a dict of values by name"),
+    "Iterable": (_is_list, "a list"),
+    "Sequence": (_is_list, "a list"),
+    "Paths": (_is_list, "a list"),
+    "Vector": (_is_list, "three numbers"),
+    "tuple": (_is_list, "a list"),
+}
+"""Whether a value has a kind, and its name in a message, by the first word of an annotation."""
+
+
+def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
+    """Return a function that raises ConfigError for arguments of another kind than annotated.
+
+    Annotations that are not in ``_KINDS``, such as those of words, are checked by the function.
+
+    Args:
+        function: A function whose module has ``from __future__ import annotations``.
+    """
+    names = function.__code__.co_varnames
+    kinds: Mapping[str, str] = function.__annotations__
+
+    @wraps(function)
+    def call(*args: P.args, **kwargs: P.kwargs) -> T:
+        for name, value in (*zip(names, args, strict=False), *kwargs.items()):
+            require_kind(name, value, kinds.get(name, ""))
+        return function(*args, **kwargs)
+
+    return call
+
+
+def require_kind(name: str, value: object, annotation: str) -> None:
+    """Raise ConfigError if a value is of none of the kinds of an annotation.
+
+    Args:
+        name: Name of the option.
+        value: Its value.
+        annotation: Text of the annotation; other types than those of ``_KINDS`` allow all values.
+    """
+    words = [word.partition("[")[0].strip() for word in _split(annotation)]
+    if not words or any(word not in _KINDS for word in words):
+        return
+    if any(_KINDS[word][0](value) for word in words):
+        return
+    allowed = [_KINDS[word][1] for word in words if word != "None"]
+    raise ConfigError(f"{name} is {value!r}, which is not {' or '.join(allowed)}")
+
+
+def _split(annotation: str) -> list[str]:
+    """Return the types of a union; ``|`` inside of brackets does not separate them."""
+    found, depth = [""], 0
+    for character in annotation:
+        depth += (character == "[") - (character == "]")
+        if character == "|" and not depth:
+            found.append("")
+        else:
+            found[-1] += character
+    return [one for one in found if one.strip()]
