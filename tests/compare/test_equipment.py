@@ -78,3 +78,33 @@ def test_the_range_of_a_command_interface_is_compared(tmp_path):
     )
     found = compare(tmp_path, text, text.replace(">-1<", ">-2<"), ".urdf")
     assert [(d.row, d.values) for d in found.differences] == [("simulator data", ("-1", "-2"))]
+
+
+SDF = """<sdf version="1.9"><model name="m"><link name="a"><inertial><mass>1</mass></inertial>
+<light name="lamp" type="point"><pose>0 0 1 0 0 0</pose><diffuse>1 0 0 1</diffuse></light>
+<battery name="b"><voltage>12</voltage></battery></link>
+<link name="t"><pose>0 0 .5 0 0 0</pose>{}</link>
+<joint name="j" type="fixed"><parent>a</parent><child>t</child></joint>
+<plugin name="q" filename="x"><rate>1</rate></plugin></model></sdf>"""
+BEAM = '<projector name="p"><pose>0 .1 0 0 0 0</pose><texture>t.png</texture></projector>'
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("1 0 0 1", "0 1 0 1", ("other elements", "<light> 'lamp': diffuse")),
+        (">12<", ">24<", ("other elements", "<battery> 'b': voltage")),
+        ("0 .1 0", "0 .2 0", ("other elements", "<projector> 'p': pose")),
+        (BEAM, "", ("other elements", "<projector> 'p': existence")),
+        ("<rate>1", "<rate>2", ("plugins", "plugin 'q': rate")),
+    ],
+)
+def test_elements_of_two_sdf(tmp_path, old, new, expected):
+    text = SDF.format(BEAM)
+    comparison = compare(tmp_path, text, text.replace(old, new, 1), ".sdf")
+    assert [(d.row, d.title) for d in comparison.differences] == [expected]
+
+
+def test_an_element_in_another_link_of_the_same_body_is_equal(tmp_path):
+    moved = SDF.format("").replace("<battery", BEAM.replace("0 .1 0", "0 .1 .5") + "<battery")
+    assert compare(tmp_path, SDF.format(BEAM), moved, ".sdf").is_equal

@@ -52,7 +52,8 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
     yield from compare_extensions(a, b, tolerance, renamed)
     yield from compare_settings(a, b, tolerance, renamed)
     yield from compare_mechanisms(a, b, tolerance, renamed)
-    yield from compare_native(a, b, tolerance, renamed)
+    if a.format == b.format:
+        yield from compare_native(a.native, b.native, tolerance, renamed)
 
 
 def _compare_presence(

@@ -12,11 +12,11 @@ from .change import Change
 from .difference import EXISTENCE, Comparison, Difference
 from .extensions import BLOCKS, collect_tags, compare_extensions
 from .mechanisms import compare_mechanisms, list_parts_by_kind
-from .native import compare_native
+from .native import compare_native, list_in_bodies
 from .pair import Pair
+from .rows import NATIVE
 
 _BLOCKS = "simulator data"
-_NATIVE = "other elements"
 
 _ROW_OF = {
     "joint actuator": "actuators",
@@ -42,7 +42,7 @@ _READ_IN_GAZEBO = _READ | {"joint"}
 
 def compare_equipment(pair: Pair, comparison: Comparison) -> None:
     """Compare actuators, contact pairs, configurations and plugins of two files of one format."""
-    rows = [row for row in comparison.tolerances if row in (*_ROW_OF.values(), _NATIVE)]
+    rows = [row for row in comparison.tolerances if row in (*_ROW_OF.values(), NATIVE)]
     if pair.formats[0] != pair.formats[1]:
         for row in rows:
             if row not in ("actuators", "sensors"):
@@ -58,9 +58,9 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
         if change.kind in _ROW_OF:
             comparison.add(_make_difference(_ROW_OF[change.kind], change))
     a, b = pair.a.robot, pair.b.robot
-    comparison.record_parts(_NATIVE, a.native, b.native)
-    for change in compare_native(a, b, _TOLERANCE, _get_names(pair)):
-        comparison.add(_make_difference(_NATIVE, change))
+    comparison.record_parts(NATIVE, a.native, b.native)
+    for change in compare_native(*list_in_bodies(pair), _TOLERANCE, _get_names(pair)):
+        comparison.add(_make_difference(NATIVE, change))
 
 
 def _get_names(pair: Pair) -> dict[str, str]:

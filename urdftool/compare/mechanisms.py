@@ -51,11 +51,10 @@ def compare_mechanisms(
 
 _KINDS = (
     *("closed loop", "frame", "joint actuator", "contact exclusion", "configuration", "camera"),
-    "mounted sensor",
-    "light",
+    *("mounted sensor", "light", "plugin"),
 )
 
-_IN_BLOCKS = ("closed loop", "camera", "mounted sensor", "light")
+_IN_BLOCKS = ("closed loop", "camera", "mounted sensor", "light", "plugin")
 
 
 def list_parts_by_kind(robot: Robot) -> list[tuple[str, Sequence[Part]]]:
@@ -64,6 +63,7 @@ def list_parts_by_kind(robot: Robot) -> list[tuple[str, Sequence[Part]]]:
     parts: tuple[Sequence[Part], ...] = (
         *(robot.closures, frames, robot.joint_actuators, robot.exclusions),
         *(robot.configurations, robot.cameras, robot.mounted_sensors, robot.lights),
+        robot.mounted_plugins,
     )
     return list(zip(_KINDS, parts, strict=True))
 

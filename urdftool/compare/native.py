@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import zip_longest
 
-from ..model.elements import Robot
+import numpy as np
+
+from ..mechanics.reference import Array
 from ..model.mechanism import NativeElement
-from ..model.pose import Pose, rotation_from_rpy
+from ..model.pose import Pose, rotation_from_rpy, rpy_from_rotation
+from .bodies import Bodies
 from .change import Change
 from .extensions import compare_elements
+from .frames import describe_pose, make_matrix
+from .pair import Pair
 from .tolerance import is_same_pose
 
 _Key = tuple[str, str, str]
@@ -20,7 +26,10 @@ _CLASSES = frozenset(("class",))
 
 
 def compare_native(
-    a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
+    a: Iterable[NativeElement],
+    b: Iterable[NativeElement],
+    tolerance: float,
+    renamed: Mapping[str, str],
 ) -> Iterator[Change]:
     """Yield the differences of elements that only the format of two robots has.
 
@@ -28,26 +37,62 @@ def compare_native(
     another part of a robot holds is compared there.
 
     Args:
-        a: The first robot.
-        b: The second.
+        a: Elements of the first robot.
+        b: Elements of the second, of the same format.
         tolerance: Tolerance as in ``tolerance.TOLERANCE``.
         renamed: New names of parts by their old names.
     """
-    if a.format != b.format:
-        return
     one, two = _group(a, renamed), _group(b, {})
     for key in dict.fromkeys((*one, *two)):
         for old, new in zip_longest(one.get(key, ()), two.get(key, ())):
             yield from _compare(key, old, new, tolerance, renamed)
 
 
-def _group(robot: Robot, renamed: Mapping[str, str]) -> dict[_Key, list[NativeElement]]:
+def list_in_bodies(pair: Pair) -> tuple[list[NativeElement], list[NativeElement]]:
+    """Return the elements of both robots, those of links in the rigid bodies of the first robot.
+
+    Their poses are in the frames of these bodies; links of a body may differ in the two files.
+    """
+    frames = {two: (one, frame) for one, (two, frame) in pair.frames.items()}
+    own = {one: (one, np.eye(4)) for one in pair.a.by_name}
+    one = [_put_into_body(e, pair.a, own) for e in pair.a.robot.native]
+    return one, [_put_into_body(e, pair.b, frames) for e in pair.b.robot.native]
+
+
+def _put_into_body(
+    element: NativeElement, bodies: Bodies, frames: Mapping[str, tuple[str, Array]]
+) -> NativeElement:
+    """Return an element of a link as one of its body.
+
+    Args:
+        element: The element.
+        bodies: Bodies of its robot.
+        frames: Name and pose of each body in the first robot.
+    """
+    kind, _, link = element.section.partition(" ")
+    body = bodies.body_of.get(link, "") if kind == "link" else ""
+    if body not in frames:
+        return element
+    name, frame = frames[body]
+    values = dict(element.values)
+    if "pose" in values:
+        inner = make_matrix(_make_pose(values["pose"]))
+        pose: Array = frame @ bodies.by_name[body].members[link] @ inner
+        x, y, z = pose[:3, 3].tolist()
+        values["pose"] = (x, y, z, *rpy_from_rotation(pose[:3, :3].tolist()))
+    return replace(element, section=f"body {name}", values=values)
+
+
+def _group(
+    elements: Iterable[NativeElement], renamed: Mapping[str, str]
+) -> dict[_Key, list[NativeElement]]:
     """Return the elements by their section in the second robot, tag and name."""
     found: defaultdict[_Key, list[NativeElement]] = defaultdict(list)
-    for element in robot.native:
+    for element in elements:
         if element.section != "default":  # whose values are those of its elements
             kind, space, owner = element.section.partition(" ")
-            section = kind + space + renamed.get(owner, owner)
+            owner = owner if kind == "body" else renamed.get(owner, owner)
+            section = kind + space + owner
             found[section, element.tag, element.name].append(element)
     return found
 
@@ -79,7 +124,13 @@ def _compare(
     for what, value in old.values.items():
         other = new.values.get(what, ())
         if not _is_same(what, value, other, tolerance):
-            yield Change(kind, name, what.replace("_", " "), value, other, place=new.place)
+            before, after = _show(what, value), _show(what, other)
+            yield Change(kind, name, what.replace("_", " "), before, after, place=new.place)
+
+
+def _show(what: str, value: Sequence[float]) -> object:
+    """Return values as text or data."""
+    return describe_pose(make_matrix(_make_pose(value))) if what == "pose" and value else value
 
 
 def _is_same(what: str, a: Sequence[float], b: Sequence[float], tolerance: float) -> bool:

@@ -23,6 +23,9 @@ class Row(NamedTuple):
     tolerance: float
 
 
+NATIVE = "other elements"
+"""Row of the elements that only one format has."""
+
 ROWS = (
     Row("base", "whether the base is fixed", 0.0),
     Row("tree", "types, parents and mimic of joints [rad, m]", 1e-6),
@@ -48,7 +51,7 @@ ROWS = (
     Row("configurations", "named joint positions, of two files of one format", 0.0),
     Row("plugins", "plugins of URDF and SDF: class and parameters", 0.0),
     Row("simulator data", "<gazebo>, <transmission>, <ros2_control> of two URDF", 0.0),
-    Row("other elements", "what only one format has: tendons, lights, what is copied", 1e-6),
+    Row(NATIVE, "what only one format has: tendons, lights, what is copied", 1e-6),
     Row("mass matrix", "at 5 configurations, relative to the largest element", 1e-4),
     Row("gravity", "joint forces at 5 configurations, relative to the largest", 1e-4),
 )
@@ -59,7 +62,7 @@ GLOBAL_ROWS = ("mass matrix", "gravity")
 
 EQUIPMENT_ROWS = (
     *("sensors", "actuators", "contact pairs", "loops", "configurations", "plugins"),
-    *("simulator data", "other elements", "world"),
+    *("simulator data", NATIVE, "world"),
 )
 """Properties that are compared in two files of one format."""
 

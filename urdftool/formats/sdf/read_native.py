@@ -23,6 +23,9 @@ OF_LINK = (
 OF_JOINT = ("sensor", "plugin")
 OF_MODEL = ("plugin", "gripper")
 
+_IN_ROWS = frozenset(("sensor", "plugin"))
+"""Elements of which the robot has a part with all values."""
+
 _READ = {
     "model": ("link", "joint", "frame", "model", "include", "pose", "plugin", "gripper",
               *(row.path for row in OF_ROBOT)),
@@ -85,9 +88,12 @@ def _make(section: str, element: Element) -> NativeElement:
     children = [_make(section, child) for child in element.children if child.tag != "pose"]
     written = Written(element.place, element)
     attributes = dict(element.attributes)
-    return NativeElement(
+    made = NativeElement(
         written, section, element.tag, attributes, element.text.strip(), children=children
     )
+    if element.tag in _IN_ROWS:
+        made.held = frozenset(("text", *attributes, *(child.tag for child in children)))
+    return made
 
 
 def _report_unread(context: Context, element: Element, kind: str) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ....compare.proof import Excuse
+from ....compare.rows import NATIVE
 from ....diagnostic import Severity
 from ....finding import Finding
 from ....model.block_elements import find_references_at, list_model_elements
@@ -58,6 +59,7 @@ EXCUSES = (
     Excuse(("sensors", "plugins"), frozenset((DROPPED,)), properties=("existence",)),
     Excuse(("sensors",), frozenset(("lossy-frame-id",)), properties=("frame",)),
     Excuse(("sensors",), BLOCKS | {"lossy-sensor", "unknown-sensor-type"}, least=Severity.WARNING),
+    Excuse((NATIVE,), frozenset(("lossy-sdf-element",))),
     Excuse(_PARTS, BLOCKS | {"lossy-link-flag"}, least=Severity.WARNING),
 )
 """Rows and parts that a loss explains."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -12,8 +12,6 @@ from ....model.appearance import APPEARANCE
 from ....model.block_elements import list_model_elements, list_part_elements
 from ....model.elements import Joint, Link, Robot
 from ....model.kinematics import link_poses
-from ....model.mechanism import NativeElement
-from ....model.provenance import Written
 from ....model.read import parse_numbers
 from ....model.settings import JOINT_TAGS, LINK_TAGS, LUMPING_TAGS, OF_JOINTS, SURFACE
 from ....source.document import Element
@@ -74,7 +72,6 @@ def compare_elements(pair: Pair) -> Check:
     for owner, element in left:
         check.compare(np.inf, f"<{element.tag}> of '{owner}' is not in the description")
     _compare_loops(pair, check)
-    _compare_native(pair, check)
     for kind in PLACED:
         _compare_rest(pair, check, kind)
     return check
@@ -101,7 +98,6 @@ def _list_expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
     for element in list_model_elements(pair.robot):
         if element.tag not in OTHER_ROWS:
             yield "", "", element
-    yield from _list_native(pair)
     parts: list[Link | Joint] = [*pair.robot.links, *pair.robot.joints]
     for part in parts:
         if isinstance(part, Link):
@@ -116,34 +112,6 @@ def _list_expected(pair: Pair) -> Iterator[tuple[str, str, Element]]:
         for element in list_part_elements(pair.robot, part):
             if element.tag not in OTHER_ROWS:
                 yield owner, part.name, element
-
-
-def _get_native(robot: Robot) -> Sequence[NativeElement]:
-    """Return the elements of SDF of a robot."""
-    return robot.native if robot.format == "sdf" else ()
-
-
-def _list_native(pair: Pair) -> Iterator[tuple[str, str, Element]]:
-    """Yield the elements of an SDF that are copied, with their owner in the file."""
-    for one in _get_native(pair.robot):
-        kind, _, name = one.section.partition(" ")
-        held = pair.place(name) if kind == "link" else None
-        owner = pair.get_joint(name) if kind == "joint" else held[0] if held is not None else ""
-        if one.tag not in OTHER_ROWS and isinstance(one.provenance, Written):
-            assert one.provenance.element is not None
-            yield owner, "", one.provenance.element
-
-
-def _compare_native(pair: Pair, check: Check) -> None:
-    """Compare the poses of copied elements in links that are the same in the file."""
-    there = {(one.section, one.tag, one.name): one for one in pair.result.native}
-    for one in _get_native(pair.robot):
-        other = there.get((one.section, one.tag, one.name))
-        if other is None or "pose" not in one.values:
-            continue
-        poses = [make_pose_of_six([*each.values["pose"]]) for each in (one, other)]
-        off = float(np.abs(poses[0] - poses[1]).max())
-        check.compare(off, f"<{one.tag}> '{one.name}' is at another pose")
 
 
 def _compare_pose(
