@@ -33,7 +33,7 @@ _GROUPS = {
     "What to do": "fix diff unsafe_fixes fix_meshes explain list_rules",
     "Rules": "select extend_select ignore target baseline write_baseline",
     "Output": "style whole output_file junit statistics fail_on exit_zero",
-    "Input": "no_expand list_robots changed_since watch",
+    "Input": "no_expand list_robots show_targets changed_since watch",
     "Performance": "jobs scheduler",
 }
 
@@ -121,6 +121,13 @@ _GROUPS = {
     help="Print the robots, their variants and the files that they include, and exit.",
 )
 @click.option(
+    "--explain-targets",
+    "show_targets",
+    is_flag=True,
+    help="Print which file and line names each target, the packages, launch arguments and "
+    "controllers of each robot, and exit.",
+)
+@click.option(
     "--changed-since",
     metavar="REV",
     help="Check only robots to which files belong that changed since a revision of git.",
@@ -192,6 +199,7 @@ def _check_paths(
     explain: str | None,
     list_rules: bool,
     list_robots: bool,
+    show_targets: bool,
     changed_since: str | None,
     package: dict[str, Path],
     package_path: tuple[str, ...],
@@ -257,6 +265,10 @@ def _check_paths(
 
         options.cache = Cache(DiskCache(folder))
     options.expand = not no_expand
+    if show_targets:
+        from .lint_targets import print_targets
+
+        return print_targets(files, found, options, style)
     options.fixes = style is None or style in _WITH_FIXES
     output = OutputOptions(
         style, output_file, statistics, exit_zero, fail_on, baseline, write_baseline

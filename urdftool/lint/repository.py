@@ -14,12 +14,14 @@ class RobotFile:
         path: Its path.
         why: Why it is one.
         variants: Sets of arguments that launch files and builds pass.
+        places: Place of each variant.
         computed: Arguments whose values a launch file computes, with its place.
     """
 
     path: str
     why: str
     variants: list[dict[str, str]] = field(default_factory=list)
+    places: list[str] = field(default_factory=list)
     computed: dict[str, str] = field(default_factory=dict)
 
 

@@ -212,6 +212,7 @@ class _Search:
         arguments = dict(use.arguments)
         if arguments not in robot.variants:
             robot.variants.append(arguments)
+            robot.places.append(place)
         robot.computed.update(dict.fromkeys(use.computed, place))
 
 

@@ -260,7 +260,7 @@ def _check_description(
     if settings.targets is not None:
         targets = settings.targets
     elif robot is not None:
-        targets, report.overruled = infer_targets(robot, description)
+        targets, report.overruled, _ = infer_targets(robot, description)
     else:
         targets = frozenset()
     report.targets = targets
