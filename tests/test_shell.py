@@ -171,4 +171,5 @@ def test_the_wheel_brings_them(tmp_path):
         "share/zsh/site-functions/_urdftool",
         "share/fish/vendor_completions.d/urdftool.fish",
         *(f"share/urdftool/cmake/{file.name}" for file in (ROOT / "urdftool/cmake").iterdir()),
+        *(f"share/urdftool/{path.relative_to(ROOT)}" for path in (ROOT / "skills").rglob("*.md")),
     }

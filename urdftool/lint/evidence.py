@@ -44,7 +44,7 @@ _LAUNCH_ENDINGS = ("*.py", "*.xml", "*.launch", "*.yaml")
 
 
 class Evidence(NamedTuple):
-    """What one place says of a target.
+    """Statement of one place about a target.
 
     Attributes:
         target: The target.
@@ -95,14 +95,14 @@ class Signs:
 
     @cached_property
     def dependents(self) -> tuple[Evidence, ...]:
-        """What packages of the repository say whose launch files use its package."""
+        """Statements of packages of the repository whose launch files use its package."""
         own = None if self.package is None else self.description.packages.own
         if own is None:
             return ()
         workspace = self.description.workspace
         found: list[Evidence] = []
         for folder in self.description.packages.list_neighbors():
-            if folder != own[1] and _uses_package(workspace, folder, own[0]):
+            if folder != own[1] and _is_package_used(workspace, folder, own[0]):
                 manifest = read_manifest(workspace, folder / "package.xml")
                 said = (*manifest, *read_launch_files(workspace, folder))
                 found += [one for one in said if one.target in GENERATIONS]
@@ -152,7 +152,7 @@ class Signs:
 
 @memoize_by_workspace
 def read_manifest(workspace: Workspace, path: Path) -> tuple[Evidence, ...]:
-    """Return what a package.xml says of ROS and of the generation of Gazebo."""
+    """Return the statements of a package.xml about ROS and the generation of Gazebo."""
     file = read_optional_file(workspace, path)
     if file is None:
         return ()
@@ -200,7 +200,7 @@ def _list_launch_files(workspace: Workspace, package: Path) -> list[tuple[Source
 
 
 @memoize_by_workspace
-def _uses_package(workspace: Workspace, folder: Path, name: str) -> bool:
+def _is_package_used(workspace: Workspace, folder: Path, name: str) -> bool:
     """Tell whether a launch file of a package looks up the folder of another one."""
     word = re.escape(name.encode())
     lookup = re.compile(_LOOKUP + rb"[\s(\"']+" + word + rb"(?![\w-])(?!\)?/xacro)")
@@ -211,41 +211,45 @@ def _list_plugins(robot: Robot) -> Iterator[Evidence]:
     for plugin in robot.plugins:
         library = plugin.filename.rpartition("/")[2]
         if is_for_gz(plugin.element):
-            yield _cite("gz", "a plugin", plugin.element, f"plugin {library or plugin.name}")
+            yield _make_evidence(
+                "gz", "a plugin", plugin.element, f"plugin {library or plugin.name}"
+            )
         elif library.startswith(_CLASSIC_PREFIXES):
-            yield _cite("gazebo-classic", "a plugin", plugin.element, f"plugin {library}")
+            yield _make_evidence("gazebo-classic", "a plugin", plugin.element, f"plugin {library}")
     for block in robot.gazebo:
         for element in block.element.walk():
             library = element.attributes.get("plugin", "").rpartition("/")[2]
             if library.startswith(_CLASSIC_PREFIXES):
-                yield _cite("gazebo-classic", "a plugin", element, f"plugin {library}")
+                yield _make_evidence("gazebo-classic", "a plugin", element, f"plugin {library}")
     for control in robot.ros2_controls:
         hardware = control.plugin or ""
         if hardware.startswith(("gz_ros2_control/", "ign_ros2_control/")):
-            yield _cite("gz", "a plugin", control.element, f"hardware {hardware}")
+            yield _make_evidence("gz", "a plugin", control.element, f"hardware {hardware}")
         elif hardware.startswith("gazebo_ros2_control/"):
-            yield _cite("gazebo-classic", "a plugin", control.element, f"hardware {hardware}")
+            yield _make_evidence(
+                "gazebo-classic", "a plugin", control.element, f"hardware {hardware}"
+            )
 
 
 def _list_elements(robot: Robot) -> Iterator[Evidence]:
     """Yield the first element of each kind that is made for one target."""
     for control in robot.ros2_controls[:1]:
-        yield _cite("ros2", "an element", control.element, "<ros2_control>")
+        yield _make_evidence("ros2", "an element", control.element, "<ros2_control>")
     for transmission in robot.transmissions:
         if any(joint.hardware_interfaces for joint in transmission.joints):
             said = "<hardwareInterface> of ros_control in a joint"
-            yield _cite("ros1", "an element", transmission.element, said)
+            yield _make_evidence("ros1", "an element", transmission.element, said)
             break
     element = robot.element.find_child("mujoco")
     if element is not None:
-        yield _cite("mujoco", "an element", element, "<mujoco>")
+        yield _make_evidence("mujoco", "an element", element, "<mujoco>")
 
 
-def _cite(target: str, source: str, element: Element, text: str) -> Evidence:
+def _make_evidence(target: str, source: str, element: Element, text: str) -> Evidence:
     place = element.place
     return Evidence(target, source, place.file.path, place.file.position(place.start)[0], text)
 
 
-def cite_blocks(target: str, block: Element) -> Evidence:
+def make_guess(target: str, block: Element) -> Evidence:
     """Return the evidence of a ``<gazebo>`` block where nothing names a generation of Gazebo."""
-    return _cite(target, "an element", block, "<gazebo>, and nothing names its generation")
+    return _make_evidence(target, "an element", block, "<gazebo>, and nothing names its generation")

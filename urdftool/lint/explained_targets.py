@@ -93,7 +93,7 @@ def explain_targets(path: str, options: Options, robot: RobotFile | None) -> Exp
     Args:
         path: Path of the description.
         options: Options of the check.
-        robot: What launch files say of it; None if no folder was searched.
+        robot: Its variants in launch files; None if no folder was searched.
 
     Raises:
         ConfigError: The configuration is invalid.

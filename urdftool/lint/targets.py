@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from ..model.elements import Robot
 from ..source.description import Description
-from .evidence import GENERATIONS, TARGETS_OF, Evidence, Signs, cite_blocks
+from .evidence import GENERATIONS, TARGETS_OF, Evidence, Signs, make_guess
 
 _NAMES = {"gz": "new Gazebo", "gazebo-classic": "Gazebo Classic"}
 
@@ -46,7 +46,7 @@ def infer_targets(robot: Robot, description: Description) -> Inference:
     generations, overruled = _infer_generations(signs)
     guesses: tuple[Evidence, ...] = ()
     if signs.first_block is not None and not generations:
-        guesses = (cite_blocks("gz" if "ros2" in targets else "gazebo-classic", signs.first_block),)
+        guesses = (make_guess("gz" if "ros2" in targets else "gazebo-classic", signs.first_block),)
     return Inference(targets | generations | _get_targets(guesses), overruled, guesses)
 
 

@@ -24,6 +24,7 @@ def format_targets_as_text(explained: Iterable[ExplainedTargets]) -> str:
 def _format_block(one: ExplainedTargets) -> Iterator[str]:
     if one.not_checked:
         yield f"  not checked: {one.not_checked}"
+        return
     names = ", ".join(sorted(one.targets)) or "any reader of URDF"
     yield f"  targets: {names}" + (f" (set by {one.set_by})" if one.set_by else "")
     for evidence, ignored in one.evidence.items():
