@@ -70,14 +70,17 @@ def _infer_from_launches(signs: Signs, plugins: frozenset[str]) -> tuple[frozens
 
     If they name both generations, the plugins decide, if there are any of one generation only.
     """
-    for evidence, source in (
-        (lambda: signs.launches, "a launch file"),
-        (lambda: signs.dependents, "a package that launches it"),
-    ):
-        named = _get_targets(evidence())
-        if len(named) == 1 or (named and len(plugins) != 1):
-            return named, source
+    named = _get_targets(signs.launches)
+    if _is_clear(named, plugins):
+        return named, "a launch file"
+    named = _get_targets(signs.dependents)
+    if _is_clear(named, plugins):
+        return named, "a package that launches it"
     return frozenset(), ""
+
+
+def _is_clear(named: frozenset[str], plugins: frozenset[str]) -> bool:
+    return len(named) == 1 or (bool(named) and len(plugins) != 1)
 
 
 def _get_targets(evidence: tuple[Evidence, ...]) -> frozenset[str]:
