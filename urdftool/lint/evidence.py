@@ -216,11 +216,10 @@ def _list_plugins(robot: Robot) -> Iterator[Evidence]:
             )
         elif library.startswith(_CLASSIC_PREFIXES):
             yield _make_evidence("gazebo-classic", "a plugin", plugin.element, f"plugin {library}")
-    for block in robot.gazebo:
-        for element in block.element.walk():
-            library = element.attributes.get("plugin", "").rpartition("/")[2]
-            if library.startswith(_CLASSIC_PREFIXES):
-                yield _make_evidence("gazebo-classic", "a plugin", element, f"plugin {library}")
+    for element in robot.old_plugins:
+        library = element.attributes["plugin"].rpartition("/")[2]
+        if library.startswith(_CLASSIC_PREFIXES):
+            yield _make_evidence("gazebo-classic", "a plugin", element, f"plugin {library}")
     for control in robot.ros2_controls:
         hardware = control.plugin or ""
         if hardware.startswith(("gz_ros2_control/", "ign_ros2_control/")):

@@ -421,13 +421,13 @@ class Robot(RobotConversions, Part):
         ]
 
     @cached_property
-    def old_plugins(self) -> list[str]:
-        """Return libraries in ``plugin`` attributes within ``<gazebo>``, a syntax of 2010.
+    def old_plugins(self) -> list[Element]:
+        """Return elements with libraries in ``plugin`` attributes within ``<gazebo>``, a syntax of 2010.
 
         Example: ``<controller:gazebo_ros_laser plugin="libgazebo_ros_laser.so">``.
         """
         return [
-            element.attributes["plugin"]
+            element
             for block in self.gazebo
             for element in block.element.walk()
             if "plugin" in element.attributes

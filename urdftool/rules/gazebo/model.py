@@ -156,7 +156,7 @@ def missing_control_plugin(
     plugins = [
         f"{plugin.filename} {plugin.name}" for block in robot.gazebo for plugin in block.plugins
     ]
-    plugins += robot.old_plugins
+    plugins += [element.attributes["plugin"] for element in robot.old_plugins]
     if not plugins and _has_gazebo_part(description):
         return
     acting = [text for text in plugins if _DRIVES.search(text)]
