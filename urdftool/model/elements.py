@@ -422,7 +422,7 @@ class Robot(RobotConversions, Part):
 
     @cached_property
     def old_plugins(self) -> list[Element]:
-        """Return elements with libraries in ``plugin`` attributes within ``<gazebo>``, a syntax of 2010.
+        """Return elements of ``<gazebo>`` blocks whose ``plugin`` is a library, a syntax of 2010.
 
         Example: ``<controller:gazebo_ros_laser plugin="libgazebo_ros_laser.so">``.
         """
