@@ -22,10 +22,11 @@ from .cuts import PlaneCutter
 from .decimate import decimate
 from .decompose import DecompositionError
 from .measure import Measures, ReferenceSurface, compute_hull_error, measure
-from .notes import FLAT_MESH, HULL_INSTEAD, HULL_OF_ENGINES, MORE_PIECES, make_note
+from .notes import FLAT_MESH, HULL_INSTEAD, HULL_OF_ENGINES, MORE_PIECES, SPHERES, make_note
 from .piece import PRIMITIVES, Piece, make_mesh_piece
 from .primitives import fit_primitives, measure_primitive_distance
 from .settings import Settings
+from .sphere_fit import fit_spheres
 from .spheres import cover_with_spheres
 from .surface import Prepared, label_flat_sides
 
@@ -283,9 +284,18 @@ def _try_simplification(
 def _try_spheres(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
 ) -> Iterator[Choice]:
-    """Yield a cover by few spheres, of which none protrudes by more than the error."""
-    pieces = cover_with_spheres(target, settings.max_error, settings.max_hulls)
-    yield Choice("spheres", pieces, measure(target, pieces))
+    """Yield a number of spheres, or few that cover all and protrude by at most the error."""
+    if settings.count is not None:
+        pieces = fit_spheres(target, settings.count, cover=settings.cover)
+    else:
+        pieces = cover_with_spheres(target, settings.max_error, settings.max_hulls)
+    found = measure(target, pieces)
+    outside, protrusion = (1000 * x for x in (found.uncovered, found.collision_to_visual))
+    text = (
+        f"The spheres leave out up to {outside:.3g} mm and protrude by up to {protrusion:.3g} mm."
+    )
+    notes.append(make_note(SPHERES, text, {"outside": outside, "protrusion": protrusion}))
+    yield Choice("spheres", pieces, found)
 
 
 _METHODS: dict[str, Callable[[ReferenceSurface, Settings, list[Diagnostic]], Iterator[Choice]]] = {

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..errors import ConfigError, MeshError, UrdftoolError
+from ..geometry.link_extent import get_shape_points
 from ..model.elements import Collision, Link, Mesh, Robot, UnknownShape, Visual
 from ..suggestions import require_word, suggest_name
 from .compute import Task
@@ -18,7 +21,7 @@ from .settings import METHODS, QUALITIES, SOURCES, Settings
 Shape = Visual | Collision
 
 _NUMBERS = ("max-error", "threshold", "time-limit")
-_COUNTS = ("max-hulls", "max-vertices", "max-triangles")
+_COUNTS = ("max-hulls", "max-vertices", "max-triangles", "count")
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,8 +109,37 @@ def plan(robot: Robot, options: CollisionOptions) -> tuple[list[LinkPlan], list[
                 uses.append(Use(shape, _make_task(robot, shape, settings)))
             except UrdftoolError as error:
                 problems.append(error)
-        plans.append(LinkPlan(index, link, source, uses, replaced))
+        plans.append(LinkPlan(index, link, source, list(_divide_count(robot, uses)), replaced))
     return plans, problems
+
+
+def _divide_count(robot: Robot, uses: Sequence[Use]) -> Iterator[Use]:
+    """Yield the shapes of a link, the number of its spheres divided by the sizes of its meshes.
+
+    Each mesh has one sphere at least. The rest go one by one to the mesh with the largest size for
+    each of its spheres.
+    """
+    meshes = [use for use in uses if use.task is not None]
+    count = next((use.task.settings.count for use in meshes if use.task is not None), None)
+    if count is None or len(meshes) < 2:
+        yield from uses
+        return
+    sizes = {use: _measure_size(robot, use.shape) for use in meshes}
+    shares = dict.fromkeys(meshes, 1)
+    for _ in range(count - len(meshes)):
+        shares[max(meshes, key=lambda use: sizes[use] / shares[use])] += 1
+    for use in uses:
+        if use.task is None:
+            yield use
+        else:
+            settings = replace(use.task.settings, count=shares[use])
+            yield replace(use, task=replace(use.task, settings=settings))
+
+
+def _measure_size(robot: Robot, shape: Shape) -> float:
+    """Return the diagonal [m] of the bounding box of a mesh; 0 if it cannot be read."""
+    points = get_shape_points(robot, shape)
+    return 0.0 if points is None else float(np.linalg.norm(np.ptp(points, axis=0)))
 
 
 def _link_plan(
@@ -204,6 +236,9 @@ def _read_settings(table: Mapping[str, Any], path: str | None) -> dict[str, Any]
             if value not in QUALITIES:
                 known = ", ".join(QUALITIES)
                 raise ConfigError(f"collision.quality is '{value}', not one of {known}", path=path)
+        elif key == "cover":
+            if not isinstance(value, bool):
+                raise ConfigError("collision.cover must be true or false", path=path)
         elif key in _NUMBERS or key in _COUNTS:
             whole = key in _COUNTS
             if isinstance(value, bool) or not isinstance(value, int if whole else (int, float)):
@@ -211,7 +246,7 @@ def _read_settings(table: Mapping[str, Any], path: str | None) -> dict[str, Any]
             if value <= 0 or (key == "max-vertices" and value < 4):
                 raise ConfigError(f"collision.{key} is {value}, which is too small", path=path)
         else:
-            known = ", ".join(("method", "quality", *_NUMBERS, *_COUNTS, "links"))
+            known = ", ".join(("method", "quality", *_NUMBERS, *_COUNTS, "cover", "links"))
             raise ConfigError(f"no option is called collision.{key}; there are {known}", path=path)
         found[key.replace("-", "_")] = value
     return found

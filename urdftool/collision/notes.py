@@ -16,6 +16,8 @@ HULL_OF_ENGINES = "hull-of-engines"
 MORE_PIECES = "more-pieces"
 """Number of ``pieces`` and ``error`` that a larger limit would give."""
 MESH_REPAIRED = "mesh-repaired"
+SPHERES = "spheres"
+"""How far the surface is ``outside`` of spheres, and their ``protrusion`` [mm]."""
 
 SHOWN = frozenset({COACD_FAILED, COACD_KILLED, HULL_INSTEAD, FLAT_MESH, HULL_OF_ENGINES})
 """Codes of notes that are printed without ``-v``."""

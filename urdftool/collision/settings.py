@@ -64,6 +64,9 @@ class Settings:
         threshold: CoACD's concavity threshold for ``coacd``: a distance relative to half the
             longest side.
         time_limit: Processor time limit [s] of all CoACD runs on a mesh.
+        count: Number of spheres of ``spheres``, with the least error; None for as many as
+            ``max_error`` needs.
+        cover: Whether ``count`` spheres leave no point of the surface outside.
         quality: One of ``QUALITIES``: how finely to measure, and how long to search. It does not
             set ``max_error``; :meth:`from_quality` does.
     """
@@ -75,6 +78,8 @@ class Settings:
     max_triangles: int = 1000
     threshold: float = 0.06
     time_limit: float = 120.0
+    count: int | None = None
+    cover: bool = False
     quality: str = "balanced"
 
     def __post_init__(self) -> None:
@@ -83,8 +88,9 @@ class Settings:
         require_word("quality", self.quality, QUALITIES)
         for name in ("max_error", "max_vertices", "max_triangles", "threshold", "time_limit"):
             require_positive(name, getattr(self, name))
-        if self.max_hulls is not None:
-            require_positive("max_hulls", self.max_hulls)
+        for name in ("max_hulls", "count"):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name))
 
     @classmethod
     def from_quality(cls, quality: str, **changes: Any) -> Settings:

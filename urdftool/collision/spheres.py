@@ -67,7 +67,7 @@ class _Cover:
 
     def __init__(self, target: ReferenceSurface) -> None:
         self.dense = target.nearest.samples.points
-        self.gap = _measure_gap(target)
+        self.gap = measure_gap(target)
         self.some = self.dense[:: max(1, len(self.dense) // _SAMPLES)]
         exterior = target.exterior
         nodes = np.argwhere(exterior.depth > 0)
@@ -122,7 +122,7 @@ def _compute_distances(centers: Points, points: Points) -> Floats:
     return np.asarray(np.sqrt(np.maximum(squares, 0)), dtype=np.float32)
 
 
-def _measure_gap(target: ReferenceSurface) -> float:
+def measure_gap(target: ReferenceSurface) -> float:
     """Measure the largest distance [m] of exterior points from the dense samples."""
     points = spread(target.corners, _CHECKED).points
     points = points[target.exterior.is_touchable(points)]

@@ -11,6 +11,7 @@ from ..collision.settings import MESH_FORMATS, SOURCES, URIS
 from ..console import Console
 from .collision_options import (
     add_settings_options,
+    check_sphere_options,
     check_spheres_file,
     limit_threads,
     require_libraries,
@@ -57,7 +58,7 @@ class _OrMesh(GroupedCommand):
 _GROUPS = {
     "What to do": "output in_place check",
     "Geometry": "method quality max_error source only skip keep_primitives "
-    "max_hulls max_vertices max_triangles threshold",
+    "max_hulls max_vertices max_triangles threshold count cover",
     "Output": "style mesh_dir mesh_format uri spheres_file overwrite picture",
     "Performance": "jobs time_limit scheduler",
 }
@@ -144,6 +145,7 @@ def command(ctx: click.Context, /, words: tuple[str, ...], **values: Any) -> int
     if check and values["scheduler"]:
         raise click.UsageError("--check does not support --scheduler")
     check_picture_name(values["picture"])
+    check_sphere_options(values)
     check_spheres_file(values["spheres_file"], values["method"])
     require_libraries(values["method"], check=check)
     limit_threads()

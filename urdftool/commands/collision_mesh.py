@@ -11,6 +11,7 @@ from ..console import Console
 from ..output import check_targets
 from .collision_options import (
     add_settings_options,
+    check_sphere_options,
     limit_threads,
     make_settings,
     open_cache,
@@ -26,7 +27,8 @@ if TYPE_CHECKING:
 SUFFIXES = (".stl", ".obj")
 _GROUPS = {
     "Input": "scale",
-    "Geometry": "method quality max_error max_hulls max_vertices max_triangles threshold",
+    "Geometry": "method quality max_error max_hulls max_vertices max_triangles threshold "
+    "count cover",
     "Output": "output style overwrite picture",
     "Performance": "time_limit",
 }
@@ -68,6 +70,7 @@ def command(
     check_targets([output, values["picture"]], inputs=[file])
     if output is not None and not output.lower().endswith(SUFFIXES):
         raise click.UsageError(f"OUT must end in .stl or .obj, but is '{output}'")
+    check_sphere_options(values)
     require_libraries(values["method"])
     limit_threads()
     from ..collision.cache import compute_key, read_cached_result

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -29,6 +29,8 @@ _NAMES = (
     "max_triangles",
     "threshold",
     "time_limit",
+    "count",
+    "cover",
 )
 
 
@@ -112,6 +114,19 @@ _OPTIONS = (
         metavar="S",
         help="Maximum total CPU time of CoACD per mesh [s].",
     ),
+    click.option(
+        "--count",
+        type=click.IntRange(1),
+        metavar="N",
+        help="Number of spheres per link of --method spheres, with the least error: half of it "
+        "protrudes, half is outside of the spheres.  [default: as --max-error requires]",
+    ),
+    click.option(
+        "--cover",
+        is_flag=True,
+        help="No point of the surface is outside of the spheres of --count, which protrude the "
+        "least for that.",
+    ),
     *CACHE_OPTIONS,
     click.option(
         "--picture", metavar="FILE.png", help="Write a picture of the geometry before and after."
@@ -143,6 +158,19 @@ def open_cache(values: dict[str, Any]) -> DiskCache:
     from ..storage import DiskCache
 
     return DiskCache(choose_cache_folder("collision", values["cache_dir"], values["no_cache"]))
+
+
+def check_sphere_options(values: Mapping[str, Any]) -> None:
+    """Refuse options of spheres that the method does not have.
+
+    Raises:
+        click.UsageError: The method makes no spheres.
+    """
+    given = [name for name in ("count", "cover") if values[name]]
+    if given and values["method"] != "spheres":
+        raise click.UsageError(f"--{given[0]} requires --method spheres")
+    if values["count"] and values["max_hulls"]:
+        raise click.UsageError("--count and --max-hulls exclude each other")
 
 
 def check_spheres_file(path: str | None, method: str) -> None:

@@ -177,7 +177,7 @@ def _format_advice(row: Row) -> str:
     if row.requested == "coacd":
         return "try a smaller --threshold with more --max-triangles"
     if row.requested == "spheres":
-        return "try a smaller --max-error, with more spheres"
+        return "try more spheres: a larger --count or --max-hulls, or a smaller --max-error"
     if row.requested in ("auto", "cuts"):
         return "more pieces help little; allow a larger --max-error or try --method simplify"
     return "try --method auto"
