@@ -111,11 +111,11 @@ class Expansion:
         above: list[Element] = []
         root: Element | None = None
         for node in self.nodes:
-            depth, kind, data, *source = node
+            depth, kind, data = node[:3]
             del above[depth - 1 :]
             parent = above[-1] if above else None
             if isinstance(kind, str):
-                element = Element(kind, dict(data), parent, *source)
+                element = Element(kind, dict(data), parent, *node[3:])
                 above.append(element)
                 if parent is None:
                     root = element

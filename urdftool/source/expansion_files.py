@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from ..control_characters import LINES, escape_controls
 from ..errors import XacroError
@@ -18,6 +18,8 @@ from .location import SourceFile
 from .packages import Packages, shorten_path
 from .sandbox import Sandbox
 from .yaml_bounds import MAX_BYTES
+
+T = TypeVar("T")
 
 _MAX_FOLDERS = 6
 """Maximum number of folders after a wildcard; chosen, each may list the folders of all before."""
@@ -63,6 +65,10 @@ class ExpansionFiles:
             "suggest": self.suggest_path,
             "message": self.add_message,
         }
+
+    def remember(self, key: Hashable, make: Callable[[], T]) -> T:
+        """Return a value that the workspace keeps for the next expansion."""
+        return self._packages.files.memoize(key, lambda _: make())
 
     def find_package(self, name: str) -> str:
         """Return the folder of a package.

@@ -59,6 +59,7 @@ class Writer:
             ],
             warnings=[(w.message, self._write_place(w.place)) for w in result.warnings],
             included=list(included),
+            read=[self._files[id(file)] for file in result.files.values()],
             lookups=self._list_lookups(result.lookups or ()),
         )
 
@@ -174,8 +175,10 @@ class Reader:
         ]
 
     def read_result(self, result: Expansion) -> list[str]:
-        """Set nodes, arguments and warnings of an expansion; return the included files."""
+        """Set files, nodes, arguments and warnings of an expansion; return the included files."""
         value = self._value
+        read = [_pick(self._files, index) for index in value["read"]]
+        result.files = {file.path: file for file in read}
         result.nodes = self._read_nodes(value["nodes"])
         for name, default, place in value["arguments"]:
             argument = Argument(
@@ -232,21 +235,26 @@ class Reader:
     def _read_nodes(self, nodes: Any) -> list[ExpandedNode]:
         """Return nodes whose values have the expected types, below one root element."""
         found: list[ExpandedNode] = []
+        sizes, stacks = [len(file.data) for file in self._files], self._stacks
         reached, roots = 1, 0
-        for depth, kind, *rest in nodes:
+        for node in nodes:
+            depth, kind, data = node[:3]
             if not 0 < _require_number(depth) <= min(reached, MAX_DEPTH + 1):
                 raise ValueError(f"depth {depth} below {reached}")
             if isinstance(kind, int):
                 if kind not in _KINDS:
                     raise ValueError(f"kind {kind}")
-                found.append((depth, kind, _require_text(rest[0])))
+                found.append((depth, kind, _require_text(data)))
                 reached = depth
                 continue
-            attributes, file, start, calls = rest
-            if set(map(type, attributes.values())) - _TEXTS:
-                raise TypeError("the value of an attribute is not text")
-            source = *self._read_start(file, start), _pick(self._stacks, calls)
-            found.append((depth, _require_text(kind), attributes, *source))
+            if not _TEXTS.issuperset(map(type, (kind, *data.values()))):
+                raise TypeError("a tag or the value of an attribute is not text")
+            file, start, calls = node[3:]
+            if not type(file) is type(start) is type(calls) is int or min(node[3:]) < 0:
+                raise TypeError(f"{node[3:]!r} in place of numbers from 0")
+            if start > sizes[file]:
+                raise ValueError(f"byte {start} of a file of {sizes[file]}")
+            found.append((depth, kind, data, self._files[file], start, stacks[calls]))
             reached, roots = depth + 1, roots + (depth == 1)
         if roots != 1:
             raise ValueError(f"{roots} root elements")

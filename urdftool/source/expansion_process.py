@@ -13,14 +13,13 @@ import codecs
 import os
 import re
 import signal
-import struct
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
 from importlib import import_module
 from typing import Any, NoReturn
 
-from ..errors import PackageNotFound, SourceError, UrdftoolError, XacroError, XmlError
+from ..errors import UrdftoolError, XacroError
 from ..landlock import disable_files_and_network
 from ..parallel import can_fork, hold_signals, ignore_interrupts, limit_resources, measure_memory
 from . import limits
@@ -28,6 +27,8 @@ from .expansion import Expansion
 from .expansion_channel import Channel, Ended
 from .expansion_files import ExpansionFiles
 from .expansion_json import Reader, Writer
+from .expansion_requests import PLACE, RequestedFiles
+from .last_expansion import MAX_TEXT, LastExpansion, Prepared, get_last_expansion
 from .location import Place, SourceFile
 from .packages import Packages
 from .well_formed import WIDE
@@ -47,7 +48,6 @@ _NOT_INTERRUPTIBLE = 1.0  # s: after TOTAL_SECONDS, until the system ends the pr
 _ALWAYS = ("urdftool.source.tags", "difflib", "resource", "unicodedata")
 """Modules that an expansion may import when it cannot open files any more."""
 
-_ERRORS = {kind.__name__: kind for kind in (SourceError, XmlError, XacroError, PackageNotFound)}
 _ENCODING = re.compile(rb"<\?xml[^>]*?encoding\s*=\s*[\"']([\w.:-]+)")
 _START = f"import sys; sys.path[:] = sys.argv[1:]; from {__name__} import serve; serve()"
 
@@ -100,6 +100,10 @@ def _list_modules(file: SourceFile) -> Iterable[str]:
 
 
 def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
+    last = get_last_expansion(files, result.file, result.given)
+    prepared = last.prepare(files) if can_fork() else Prepared()
+    for file in files.files[1:]:
+        modules.update(_list_modules(file))
     job = {
         "path": result.file.path,
         "encoding": result.file.encoding,
@@ -108,16 +112,16 @@ def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
         "record": result.lookups is not None,
         "modules": sorted(modules),
     }
-    process = (_Fork if can_fork() else _Interpreter)(job, result.file.data)
+    process = (_Fork if can_fork() else _Interpreter)(job, result.file.data, files.files, prepared)
     try:
-        answer = _serve_requests(process.channel, files, modules)
+        answer = _serve_requests(process.channel, files, modules, last)
         if "bug" in answer:
             raise RuntimeError(f"the expansion failed: {answer['bug']}")
         reader = Reader(answer, files.files)
         if "error" in answer:
             raise reader.read_error()
         result.dependencies = files.finish(reader.read_result(result))
-        result.files = {file.path: file for file in files.files}
+        last.finish(prepared, answer["used"], answer["expressions"])
     except _INVALID as error:
         code = process.end()
         at = process.find_place(files.files) or Place(result.file, 0, 0)
@@ -126,9 +130,11 @@ def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
         process.end()
 
 
-def _serve_requests(channel: Channel, files: ExpansionFiles, modules: set[str]) -> dict[str, Any]:
+def _serve_requests(
+    channel: Channel, files: ExpansionFiles, modules: set[str], last: LastExpansion
+) -> dict[str, Any]:
     """Serve the requests of the process until it sends its result; return that."""
-    known = 1
+    known = len(files.files)
     while True:
         request, _ = channel.receive(MAX_ANSWER)
         name, arguments = str(request[0]), [str(word) for word in request[1:]]
@@ -159,6 +165,7 @@ def _serve_requests(channel: Channel, files: ExpansionFiles, modules: set[str]) 
             reason, path = error.strerror or str(error), error.filename
             channel.send({"error": "OSError", "message": reason, "path": path})
             continue
+        last.add_request(name, arguments)
         if name == "include":
             index, file = value
             value = [index, file.path]
@@ -219,7 +226,9 @@ class _Process:
 class _Fork(_Process):
     """Fork of this process."""
 
-    def __init__(self, job: dict[str, Any], data: bytes) -> None:
+    def __init__(
+        self, job: dict[str, Any], data: bytes, files: list[SourceFile], prepared: Prepared
+    ) -> None:
         import gc
         import mmap
 
@@ -227,7 +236,7 @@ class _Fork(_Process):
         _import_modules(job["modules"])
         import_module(".xacro_hooks", __package__)
         self._code: int | None = None
-        self._place = mmap.mmap(-1, _PLACE.size)
+        self._place = mmap.mmap(-1, PLACE.size)
         requests, answers = os.pipe(), os.pipe()
         hold_signals(hold=True)
         try:
@@ -249,13 +258,14 @@ class _Fork(_Process):
             ignore_interrupts()
             hold_signals(hold=False)
             _close_files(keep=(answers[0], requests[1]))
-            _serve(job, data, Channel(answers[0], requests[1]), self._place)
+            channel = Channel(answers[0], requests[1])
+            _serve(job, data, channel, self._place, files[1:], prepared)
             code = 0
         finally:
             os._exit(code)
 
     def find_place(self, files: list[SourceFile]) -> Place | None:
-        index, start = _PLACE.unpack_from(self._place)
+        index, start = PLACE.unpack_from(self._place)
         known = 0 <= index < len(files) and 0 <= start < len(files[index].data)
         return Place(files[index], start, files[index].find_tag_end(start)) if known else None
 
@@ -272,7 +282,9 @@ class _Fork(_Process):
 class _Interpreter(_Process):
     """New interpreter, without the environment of this process."""
 
-    def __init__(self, job: dict[str, Any], data: bytes) -> None:
+    def __init__(
+        self, job: dict[str, Any], data: bytes, files: list[SourceFile], prepared: Prepared
+    ) -> None:
         import subprocess
 
         variables = ("LANG", "LC_ALL", "LC_CTYPE", "SYSTEMROOT", "LD_LIBRARY_PATH")
@@ -307,9 +319,6 @@ def _import_modules(names: Iterable[str]) -> None:
 
 # Side that expands --------------------------------------------------------------------------------
 
-_PLACE = struct.Struct("qq")
-"""File and first byte of the element that is evaluated."""
-
 
 def serve() -> NoReturn:
     """Expand one description; the main function of a new interpreter."""
@@ -319,7 +328,7 @@ def serve() -> NoReturn:
     job, data = channel.receive()
     import_module(".xacro_hooks", __package__)
     _import_modules(job["modules"])
-    _serve(job, data, channel, None)
+    _serve(job, data, channel, None, [], Prepared())
     os._exit(0)
 
 
@@ -333,7 +342,14 @@ def _close_files(keep: tuple[int, int]) -> None:
         os.closerange(start, stop)
 
 
-def _serve(job: dict[str, Any], data: bytes, channel: Channel, mark: Any) -> None:
+def _serve(
+    job: dict[str, Any],
+    data: bytes,
+    channel: Channel,
+    mark: Any,
+    included: list[SourceFile],
+    prepared: Prepared,
+) -> None:
     """Restrict this process, expand a description and send the result."""
     from .xacro_hooks import Run
 
@@ -346,11 +362,15 @@ def _serve(job: dict[str, Any], data: bytes, channel: Channel, mark: Any) -> Non
     limit_resources(processor=processor, memory=memory, files=0, processes=0)
     file = SourceFile(str(job["path"]), data, str(job["encoding"]))
     result = Expansion(file, job["given"], record=job["record"])
-    files = RequestedFiles(file, channel, mark)
-    run = Run(result, files, trusted=job["trusted"])
+    files = RequestedFiles([file, *included], prepared.answers, channel, mark)
+    run = Run(result, files, trusted=job["trusted"], codes=prepared.codes)
     try:
-        included = run.expand()
-        value = Writer(files.files).write_result(result, included)
+        names = run.expand()
+        value = Writer(files.files).write_result(result, names)
+        value["used"] = files.list_used()
+        value["expressions"] = [
+            text for text in run.codes if text not in prepared.codes and len(text) <= MAX_TEXT
+        ]
     except UrdftoolError as error:
         value = Writer(files.files).write_error(error)
     except Exception as error:
@@ -367,89 +387,3 @@ def _format_traceback(error: Exception) -> str:
         places.append(f"{trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}")
         trace = trace.tb_next
     return ", ".join(places[-5:])
-
-
-class RequestedFiles:
-    """Files, packages and variables, requested of the other side.
-
-    Attributes:
-        files: XML files received, in the order of the other side.
-    """
-
-    def __init__(self, file: SourceFile, channel: Channel, mark: Any) -> None:
-        """Set the description, the channel and the memory for the location of an element."""
-        self.files = [file]
-        self._indices = {id(file): 0}
-        self._channel = channel
-        self._mark = mark
-        self._known: dict[tuple[str, ...], Any] = {}
-
-    def find_package(self, name: str) -> str:
-        """Return the folder of a package; see :meth:`ExpansionFiles.find_package`."""
-        return str(self._request_once("find", name))
-
-    def locate_file(self, path: str) -> str:
-        """Return a path; see :meth:`ExpansionFiles.locate_file`."""
-        return str(self._request_once("locate", path))
-
-    def read_xml(self, path: str) -> SourceFile:
-        """Return a file to include; see :meth:`ExpansionFiles.read_xml`."""
-        (place, found), data = self._request("include", path)
-        index = int(place)
-        if index == len(self.files):
-            file = SourceFile(found, data)
-            self.files.append(file)
-            self._indices[id(file)] = index
-        return self.files[index]
-
-    def import_yaml(self) -> Any:
-        """Return the module yaml; the expansion starts again if it is not imported."""
-        if "yaml" not in sys.modules:
-            self._request("import", "yaml")
-        return import_module("yaml")
-
-    def read_yaml(self, path: str) -> bytes:
-        """Return the contents of a YAML file; see :meth:`ExpansionFiles.read_yaml`."""
-        return self._request("yaml", path)[1]
-
-    def list_matches(self, pattern: str) -> list[str]:
-        """Return the paths that match a pattern."""
-        return list(self._request("match", pattern)[0])
-
-    def read_variable(self, name: str) -> str:
-        """Return the value of ``$(env NAME)``."""
-        return str(self._request("env", name)[0])
-
-    def read_optional_variable(self, name: str, default: str = "") -> str:
-        """Return the value of ``$(optenv NAME DEFAULT)``."""
-        return str(self._request("optenv", name, default)[0])
-
-    def suggest_path(self, path: str) -> tuple[str, str]:
-        """Return parts of an error message; see :meth:`ExpansionFiles.suggest_path`."""
-        missing, nearest = self._request("suggest", path)[0]
-        return str(missing), str(nearest)
-
-    def add_message(self, text: str) -> None:
-        """Print a message of the description."""
-        self._request("message", text)
-
-    def mark_place(self, file: SourceFile, start: int) -> None:
-        """Store the location of the element that is evaluated, for the other side."""
-        if self._mark is not None:
-            _PLACE.pack_into(self._mark, 0, self._indices[id(file)], start)
-
-    def _request_once(self, *words: str) -> Any:
-        """Return the value of a request, of which the answer stays the same."""
-        if words not in self._known:
-            self._known[words] = self._request(*words)[0]
-        return self._known[words]
-
-    def _request(self, *words: str) -> tuple[Any, bytes]:
-        self._channel.send(words)
-        answer, data = self._channel.receive()
-        if answer.get("error") == "OSError":
-            raise OSError(0, answer["message"], answer["path"])
-        if "error" in answer:
-            kind = _ERRORS.get(answer.pop("error"), XacroError)
-            raise kind(**answer)
-        return answer["value"], data

@@ -15,10 +15,13 @@ class SourceFile:
         encoding: Encoding of the bytes, for counting columns.
         part: Path of one part, such as ``</robot/arm>``, of a file without lines; empty for text.
         editable: The file as :func:`edit.parse_source` parsed it; None before.
+        tree: The file as :func:`xacro_parse.parse_xacro` parsed it, without calls; None before.
         document: The file as :func:`document.parse_once` parsed it; None before.
     """
 
-    __slots__ = ("_starts", "_tags", "data", "document", "editable", "encoding", "part", "path")
+    __slots__ = (
+        *("_starts", "_tags", "data", "document", "editable", "encoding", "part", "path", "tree"),
+    )
 
     def __init__(self, path: str, data: bytes, encoding: str = "utf-8", part: str = "") -> None:
         """Store the bytes; derived values are computed on demand."""
@@ -30,6 +33,7 @@ class SourceFile:
         self._tags: dict[int, dict[str, tuple[int, int]]] = {}
         self.editable: object = None
         self.document: object = None
+        self.tree: object = None
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle the bytes without derived values."""

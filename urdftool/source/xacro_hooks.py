@@ -28,7 +28,7 @@ from .safe_builtins import MAX_LENGTH, check_size
 from .xacro_errors import explain
 from .xacro_files import Files
 from .xacro_lookups import LookupRecorder
-from .xacro_parse import parse_xacro
+from .xacro_parse import parse_xacro, take_tree
 from .xacro_symbols import make_ros1_evaluation, make_symbols
 from .xacro_tree import Characters, Instances, XacroDocument, XacroElement
 from .yaml_bounds import check_yaml
@@ -82,13 +82,21 @@ substitution_args: Any = _import_substitution_args()
 class Run:
     """Expansion in this process, which it occupies: the state of xacro is global."""
 
-    def __init__(self, result: Expansion, files: Files, *, trusted: bool) -> None:
+    def __init__(
+        self,
+        result: Expansion,
+        files: Files,
+        *,
+        trusted: bool,
+        codes: Mapping[str, Expression] | None = None,
+    ) -> None:
         """Set where the result goes and what may be read.
 
         Args:
             result: Expansion with its file and arguments.
             files: Files, packages and variables.
             trusted: Whether expressions may use all of Python's syntax.
+            codes: Expressions by text that are compiled.
         """
         self.result = result
         self.files = files
@@ -99,7 +107,7 @@ class Run:
         self.include_calls: tuple[Call, ...] = ()
         self.elements = 0
         self.produced = 0
-        self.codes: dict[str, Expression] = {}
+        self.codes = dict(codes or {})
         self.patience = EvaluationLimits(lambda: make_time_error(self.place))
         record = result.lookups is not None
         self.lookups = LookupRecorder(lambda: self.node) if record else None
@@ -187,7 +195,7 @@ class Run:
         self.result.files.setdefault(file.path, file)
         if self.lookups is not None:
             self.lookups.record("file", "", (file, 0))
-        return parse_xacro(file, self.include_calls)
+        return take_tree(file, self.include_calls)
 
     def abs_filename_spec(self, original: Callable[[str], str]) -> Callable[[str], str]:
         """Wrap the resolution of relative paths: apply install rules to missing files."""

@@ -101,6 +101,23 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
     return document
 
 
+def take_tree(file: SourceFile, calls: tuple[Call, ...]) -> XacroDocument:
+    """Return the tree of a file as :func:`parse_xacro`; one that was parsed before is used up.
+
+    Raises:
+        XmlError: See :func:`parse_xacro`.
+    """
+    document, file.tree = file.tree, None
+    if not isinstance(document, XacroDocument):
+        return parse_xacro(file, calls)
+    todo: list[XacroElement] = [document.documentElement]
+    while todo:
+        element = todo.pop()
+        element.calls = calls
+        todo += [child for child in element.childNodes if isinstance(child, XacroElement)]
+    return document
+
+
 def _qualify(name: str) -> str:
     """Return ``prefix:local`` for expat's ``uri local prefix``."""
     parts = name.split(" ")

@@ -34,23 +34,32 @@ def check_writable(nodes: Sequence[ExpandedNode]) -> None:
     known: set[tuple[str, ...]] = set()
     above = [next(node for node in nodes if isinstance(node[1], str))]
     prefixes = [_PREFIXES]
+    values = (text for node in nodes if isinstance(node[1], str) for text in node[2].values())
+    is_printable = "".join(values).isprintable()
     for node in nodes:
         depth, kind, data = node[:3]
         if not isinstance(kind, str):
             _check_text(kind, data, above[min(depth, len(above)) - 1])
             continue
-        text = "".join(data.values())
-        if not text.isprintable() and (found := _FORBIDDEN.search(text)):
-            name = next(name for name, value in data.items() if found[0] in value)
-            raise _make_error(f"attribute '{name}' has", found[0], node)
+        if not is_printable:
+            _check_values(node)
         del above[depth:], prefixes[depth:]
         above.append(node)
-        prefixes.append(_declare(node, prefixes[-1]))
         names = kind, *data
-        if names not in known:
-            _check_names(names, prefixes[-1], node)
-            if not any(":" in name for name in names):  # prefixes depend on the elements around
-                known.add(names)
+        if names in known:
+            prefixes.append(prefixes[-1])
+            continue
+        prefixes.append(_declare(node, prefixes[-1]))
+        _check_names(names, prefixes[-1], node)
+        if not any(":" in name or name == "xmlns" for name in names):
+            known.add(names)  # others depend on the elements around
+
+
+def _check_values(node: ExpandedNode) -> None:
+    """Check the values of the attributes of an element."""
+    for name, value in node[2].items():
+        if not value.isprintable() and (found := _FORBIDDEN.search(value)):
+            raise _make_error(f"attribute '{name}' has", found[0], node)
 
 
 def _check_names(names: Iterable[str], prefixes: frozenset[str], node: ExpandedNode) -> None:
