@@ -139,8 +139,25 @@ def multiply_matrices(a: Rotation, b: Rotation) -> Rotation:
         return b
     if b is IDENTITY_ROTATION:
         return a
-    columns = transpose(b)
-    return tuple(tuple(compute_dot(row, column) for column in columns) for row in a)  # type: ignore[return-value]
+    (b00, b01, b02), (b10, b11, b12), (b20, b21, b22) = b
+    (a00, a01, a02), (a10, a11, a12), (a20, a21, a22) = a
+    return (
+        (
+            a00 * b00 + a01 * b10 + a02 * b20,
+            a00 * b01 + a01 * b11 + a02 * b21,
+            a00 * b02 + a01 * b12 + a02 * b22,
+        ),
+        (
+            a10 * b00 + a11 * b10 + a12 * b20,
+            a10 * b01 + a11 * b11 + a12 * b21,
+            a10 * b02 + a11 * b12 + a12 * b22,
+        ),
+        (
+            a20 * b00 + a21 * b10 + a22 * b20,
+            a20 * b01 + a21 * b11 + a22 * b21,
+            a20 * b02 + a21 * b12 + a22 * b22,
+        ),
+    )
 
 
 def transpose(a: Rotation) -> Rotation:
@@ -152,11 +169,9 @@ def rotate(rotation: Rotation, vector: Vector) -> Vector:
     """Return ``R v``."""
     if rotation is IDENTITY_ROTATION:
         return vector
-    return (
-        compute_dot(rotation[0], vector),
-        compute_dot(rotation[1], vector),
-        compute_dot(rotation[2], vector),
-    )
+    (a, b, c), (d, e, f), (g, h, i) = rotation
+    x, y, z = vector
+    return a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z
 
 
 def add(a: Vector, b: Vector) -> Vector:

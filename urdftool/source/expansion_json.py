@@ -16,7 +16,6 @@ from .xacro_tree import (
     INSTRUCTION,
     TEXT,
     Characters,
-    Node,
     XacroDocument,
     XacroElement,
 )
@@ -100,25 +99,26 @@ class Writer:
     def _list_nodes(self, document: XacroDocument) -> list[Any]:
         """Return the nodes in document order, each with its depth."""
         nodes: list[Any] = []
-        todo: list[tuple[int, Node | None]] = [(1, document.firstChild)]
-        while todo:
-            depth, node = todo.pop()
+        above: list[XacroElement] = []
+        node = document.firstChild
+        while node is not None or above:
             if node is None:
-                continue
-            todo.append((depth, node.nextSibling))
-            if isinstance(node, XacroElement):
-                if depth > MAX_DEPTH:
+                node = above.pop().nextSibling
+            elif isinstance(node, XacroElement):
+                if len(above) >= MAX_DEPTH:
                     raise XacroError(
                         f"expanded elements are nested more than {MAX_DEPTH} deep, the limit of a "
                         "robot description",
                         at=node.place,
                     )
-                calls = self._write_calls(node.calls)
-                place = self._files[id(node.file)], node.start, calls
-                nodes.append((depth, node.tagName, node.attributes, *place))
-                todo.append((depth + 1, node.firstChild))
-            elif isinstance(node, Characters) and not _is_indentation(node):
-                nodes.append((depth, node.nodeType, node.data))
+                place = self._files[id(node.file)], node.start, self._write_calls(node.calls)
+                nodes.append((len(above) + 1, node.tagName, node.attributes, *place))
+                above.append(node)
+                node = node.firstChild
+            else:
+                if isinstance(node, Characters) and not _is_indentation(node):
+                    nodes.append((len(above) + 1, node.nodeType, node.data))
+                node = node.nextSibling
         return nodes
 
     def _write_place(self, place: Place | None) -> Any:
@@ -149,8 +149,10 @@ def _is_indentation(node: Characters) -> bool:
     """Tell whether a node is white space next to another kind of node, which no reader uses."""
     if node.nodeType != TEXT or not node.data.isspace():
         return False
-    around = (node.previousSibling, node.nextSibling)
-    return any(other is not None and other.nodeType != TEXT for other in around)
+    before, after = node.previousSibling, node.nextSibling
+    return (before is not None and before.nodeType != TEXT) or (
+        after is not None and after.nodeType != TEXT
+    )
 
 
 class Reader:

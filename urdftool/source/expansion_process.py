@@ -114,14 +114,14 @@ def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
     }
     process = (_Fork if can_fork() else _Interpreter)(job, result.file.data, files.files, prepared)
     try:
-        answer = _serve_requests(process.channel, files, modules, last)
+        answer, *remembered = _serve_requests(process.channel, files, modules, last)
         if "bug" in answer:
             raise RuntimeError(f"the expansion failed: {answer['bug']}")
         reader = Reader(answer, files.files)
         if "error" in answer:
             raise reader.read_error()
         result.dependencies = files.finish(reader.read_result(result))
-        last.finish(prepared, answer["used"], answer["expressions"])
+        last.finish(prepared, *remembered)
     except _INVALID as error:
         code = process.end()
         at = process.find_place(files.files) or Place(result.file, 0, 0)
@@ -132,15 +132,18 @@ def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
 
 def _serve_requests(
     channel: Channel, files: ExpansionFiles, modules: set[str], last: LastExpansion
-) -> dict[str, Any]:
-    """Serve the requests of the process until it sends its result; return that."""
+) -> list[Any]:
+    """Serve the requests of the process until it sends its result; return that.
+
+    Returns:
+        The result, the indices of the prepared answers that it used, and its expressions.
+    """
     known = len(files.files)
     while True:
         request, _ = channel.receive(MAX_ANSWER)
         name, arguments = str(request[0]), [str(word) for word in request[1:]]
         if name == "result":
-            answer: dict[str, Any] = request[1]
-            return answer
+            return list(request[1:])
         if name == "import":
             modules.update(_ON_DEMAND.intersection(arguments))
             raise _RequiresModules
@@ -367,16 +370,13 @@ def _serve(
     try:
         names = run.expand()
         value = Writer(files.files).write_result(result, names)
-        value["used"] = files.list_used()
-        value["expressions"] = [
-            text for text in run.codes if text not in prepared.codes and len(text) <= MAX_TEXT
-        ]
     except UrdftoolError as error:
         value = Writer(files.files).write_error(error)
     except Exception as error:
         value = {"bug": f"{type(error).__name__}: {error}, at {_format_traceback(error)}"}
     with suppress(OSError):  # the other side has ended
-        channel.send(["result", value])
+        texts = [text for text in run.codes.keys() - prepared.codes if len(text) <= MAX_TEXT]
+        channel.send(["result", value, files.list_used(), texts])
 
 
 def _format_traceback(error: Exception) -> str:

@@ -171,6 +171,7 @@ class Packages:
         self.used: dict[str, Path] = {}
         self.assumed: dict[str, Path] = {}
         self._missing: dict[str, tuple[str, list[str]]] = {}
+        self._near: dict[tuple[str, str], Path | None] = {}
         self._rules: dict[str, list[InstallRule]] = {}
 
     @property
@@ -182,7 +183,7 @@ class Packages:
         """Return the same finder with another workspace."""
         other = copy(self)
         other.files = workspace.restrict(None)
-        other._missing = {}
+        other._missing, other._near = {}, {}
         other.access = self.access.with_packages(other)
         return other
 
@@ -295,7 +296,11 @@ class Packages:
             name: Name of the package in a URI; PyBullet interprets it as a folder near the file.
             inner: Path after the name.
         """
-        inner = inner.lstrip("/")
+        if (name, inner) not in self._near:
+            self._near[name, inner] = self._find_folder_with(name, inner.lstrip("/"))
+        return self._near[name, inner]
+
+    def _find_folder_with(self, name: str, inner: str) -> Path | None:
         own = self.own
         roots = self._list_workspace_roots(own[1] if own else None)
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_MAX_CLIMB]

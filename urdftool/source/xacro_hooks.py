@@ -276,7 +276,10 @@ class Run:
         return wrapped
 
     def eval_all(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Wrap the expansion of an element to record it, and to limit the number of elements."""
+        """Wrap the expansion of an element to record it, and to limit the number of elements.
+
+        It begins with a loop over the attributes, of which it gets those that it changes.
+        """
 
         def evaluate(node: XacroElement, macros: Any, symbols: Any) -> None:
             self.elements += 1
@@ -288,6 +291,7 @@ class Run:
                     rule="endless-expansion",
                 )
             before, self.node = self.node, node
+            node.attributes.only_computed = True
             original(node, macros, symbols)
             self.node = before
 

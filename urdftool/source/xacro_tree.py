@@ -116,12 +116,21 @@ class _Value(NamedTuple):
 
 
 class Attributes(dict[str, str]):
-    """Attributes by name; ``items`` returns a list, since xacro modifies them while iterating."""
+    """Attributes by name; ``items`` returns a list, since xacro modifies them while iterating.
 
-    __slots__ = ()
+    Attributes:
+        only_computed: Whether the next ``items`` are only those that xacro changes when it
+            evaluates an element: with an expression, or of xacro itself.
+    """
+
+    __slots__ = ("only_computed",)
 
     def items(self) -> list[tuple[str, str]]:  # type: ignore[override]
         """Return a copy of names and values."""
+        if getattr(self, "only_computed", False):  # not set before an evaluation
+            self.only_computed = False
+            pairs = dict.items(self)
+            return [pair for pair in pairs if "$" in pair[1] or pair[0].startswith("xacro:")]
         return list(dict.items(self))
 
 

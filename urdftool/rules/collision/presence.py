@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from statistics import median
 
 from ...model.attached import find_attached_links
@@ -63,7 +63,8 @@ def missing_collision(
     if len(robot.links) == 1 and not robot.links[0].mass:
         return  # a marker, such as a goal
     seen = [link for link in robot.links if _compute_visual_size(link) > smallest]
-    ghosts = [link for link in seen if not link.collisions and not _is_invisible(robot, link)]
+    colors = {one.name: one.color for one in robot.materials if one.color is not None}
+    ghosts = [link for link in seen if not link.collisions and not _is_invisible(link, colors)]
     sizes = _compute_sizes(robot, ghosts)
     odd = {link.name for link, _ in _find_odd_links(robot)}
     discarded = not keeps_visuals(robot)
@@ -257,11 +258,15 @@ def _is_covered(robot: Robot, link: Link) -> bool:
     return False
 
 
-def _is_invisible(robot: Robot, link: Link) -> bool:
-    """Tell whether a link is virtual, or all its visuals have a color with opacity 0."""
+def _is_invisible(link: Link, colors: Mapping[str, tuple[float, ...]]) -> bool:
+    """Tell whether a link is virtual, or all its visuals have a color with opacity 0.
+
+    Args:
+        link: The link.
+        colors: Colors of the robot's materials by name.
+    """
     if _VIRTUAL.search(link.name):
         return True
-    colors = {one.name: one.color for one in robot.materials if one.color is not None}
     materials = [visual.material for visual in link.visuals]
     shown = [one and (one.color or colors.get(one.name)) for one in materials]
     return bool(shown) and all(color and color[3] == 0 for color in shown)

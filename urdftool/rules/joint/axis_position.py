@@ -119,6 +119,7 @@ def _measure_joints(robot: Robot) -> Iterator[_AxisDistances]:
     if not turning:
         return
     poses, body_of, reach = link_poses(robot), robot.tree.bodies, get_extents(robot)
+    inverse = {name: pose.invert() for name, pose in poses.items()}
     members: dict[str, list[str]] = {}
     for name, body in body_of.items():
         members.setdefault(body, []).append(name)
@@ -134,7 +135,7 @@ def _measure_joints(robot: Robot) -> Iterator[_AxisDistances]:
         for link in (joint.child, joint.parent):
             body = body_of.get(link, link)
             names = [link, *(name for name in members.get(body, ()) if name != link)]
-            gap = _measure_bodies(robot, reach, poses, names, *line)
+            gap = _measure_bodies(robot, reach, inverse, names, *line)
             if gap is None:
                 break
             gaps.append(gap)
@@ -145,12 +146,20 @@ def _measure_joints(robot: Robot) -> Iterator[_AxisDistances]:
 def _measure_bodies(
     robot: Robot,
     reach: LinkExtents,
-    poses: dict[str, Pose],
+    inverse: dict[str, Pose],
     names: list[str],
     place: Vector,
     way: Vector,
 ) -> tuple[float, float] | None:
     """Measure the distance of a line from the geometry of rigidly connected links, and their size.
+
+    Args:
+        robot: The robot.
+        reach: Bounding boxes of its links.
+        inverse: Pose of the root in the frame of each link.
+        names: The links.
+        place: A point of the line [m].
+        way: Unit vector along the line.
 
     Returns:
         The distance and the largest length of a link [m]; None if they have no geometry, or if its
@@ -162,11 +171,11 @@ def _measure_bodies(
         if not link.visuals and not link.collisions:
             continue
         box = reach.get_link_box(link)
-        if box is None or name not in poses:
+        if box is None or name not in inverse:
             return None
         size = max(size, *box.size)
         if best > _TOUCHES:
-            back = poses[name].invert()
+            back = inverse[name]
             best = min(
                 best,
                 _measure_distance(back.transform(place), rotate(back.rotation, way), box, best),

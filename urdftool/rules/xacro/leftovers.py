@@ -46,7 +46,8 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
     none is a part that another file includes, which is an info.
     """
     root = description.document.root
-    found = [item for element in root.walk() for item in _find_expressions(element)]
+    written = (element for element in root.walk() if _may_be_unexpanded(element))
+    found = [item for element in written for item in _find_expressions(element)]
     if description.expansion is None:
         if found:
             element, text, place = found[0]
@@ -119,6 +120,12 @@ def _select_effects(element: Element) -> tuple[str, ...]:
     if tags and tags[-1] == "gazebo":
         return ("gz, gazebo-classic (block)",)
     return ("urdfdom (robot)",) if not tags or tags[-1] in ("link", "joint", "material") else ()
+
+
+def _may_be_unexpanded(element: Element) -> bool:
+    """Tell whether an element has a bracket of an expression, which nearly all have not."""
+    text = "".join(element.attributes.values()) + element.text
+    return "{" in text or "$" in text
 
 
 def _find_expressions(element: Element) -> Iterator[tuple[Element, str, Place | None]]:
