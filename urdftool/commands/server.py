@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import io
 import os
+from contextlib import closing
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
 from .options import add_package_options
+
+if TYPE_CHECKING:
+    from ..server.answer_stream import AnswerStream
 
 
 @click.command("server", cls=GroupedCommand, groups={"Rules": "select ignore target"})
@@ -41,6 +46,7 @@ def command(
     from ..extras import require
 
     require("urdftool server", "pygls", "lsprotocol")
+    from ..server.answer_stream import AnswerStream
     from ..server.features import serve
     from ..server.protocol import ServerSettings
 
@@ -51,20 +57,28 @@ def command(
         select or None,
         ignore,
     )
-    answers = os.fdopen(os.dup(1), "wb", buffering=0)
+    answers = AnswerStream(os.dup(1))
     os.dup2(2, 1)  # what a library prints is not part of the protocol
-    with _Questions(io.FileIO(os.dup(0))) as questions, answers:
+    with closing(answers), _Questions(io.FileIO(os.dup(0))) as questions:
+        questions.answers = answers
         serve(settings, questions, answers)
     return 0
 
 
 class _Questions(io.BufferedReader):
-    """Messages of the editor; this process ends with them."""
+    """Messages of the editor; this process ends with them.
+
+    Attributes:
+        answers: Stream of the answers, the last of which are written first.
+    """
+
+    answers: AnswerStream
 
     def _read_line(self, size: int | None = -1) -> bytes:
         """Return a line; end the process if there is none, as many editors end without a word."""
         line = super().readline(size)
         if not line:
+            self.answers.close()
             os._exit(0)
         return line
 

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, cast
 
 from lsprotocol import types as lsp
 from pygls import uris
 from pygls.exceptions import JsonRpcException
 
+from .answer_stream import AnswerStream
 from .protocol import RobotServer, ServerSettings
 
 FIX_ALL = "source.fixAll.urdftool"
 
 
-def serve(settings: ServerSettings, stdin: BinaryIO, stdout: BinaryIO) -> None:
+def serve(settings: ServerSettings, stdin: BinaryIO, stdout: AnswerStream) -> None:
     """Serve one editor until it ends.
 
     Args:
@@ -24,7 +25,7 @@ def serve(settings: ServerSettings, stdin: BinaryIO, stdout: BinaryIO) -> None:
     """
     server = RobotServer(settings)
     add_features(server)
-    server.start_io(stdin, stdout)
+    server.start_io(stdin, cast("BinaryIO", stdout))
 
 
 def add_features(server: RobotServer) -> None:
