@@ -186,3 +186,19 @@ def test_a_robot_that_stands_in_spite_of_an_error_is_said_to_stand(urdftool, wri
     result = urdftool("simulate", "--strict", path)
     assert result.code == 1
     assert result.out.startswith("r: stands, with model errors (inertia-too-large)")
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ((), "held by  position motors within effort limits"),
+        (("--limp",), None),
+    ],
+)
+def test_what_holds_the_joints_is_named(urdftool, write, options, expected):
+    done = urdftool(
+        "simulate", write("r.urdf", two_links()), "--fixed-base", "--engine", "pybullet", *options
+    )
+    text = " ".join(done.out.split())
+    assert ("held by" in text) == (expected is not None)
+    assert expected is None or " ".join(expected.split()) in text

@@ -45,7 +45,7 @@ def fit_spheres(target: ReferenceSurface, count: int, *, cover: bool) -> list[Pi
     dense, exterior = target.nearest.samples.points, target.exterior
     points: Points = dense[:: max(1, len(dense) // _POINTS)]
     fit = _Fit(points, lambda at: exterior.interpolate(exterior.depth, at))
-    centers = fit.optimize_centers(_spread_centers(points, count))
+    centers = fit.compute_centers(_spread_centers(points, count))
     gap = measure_gap(target)
     depths = _compute_depths(target, centers, gap)
     radii = _compute_radii(dense, centers, depths, gap)
@@ -96,7 +96,7 @@ class _Fit:
         self.points = points
         self.compute_depth = compute_depth
 
-    def optimize_centers(self, centers: Points) -> Points:
+    def compute_centers(self, centers: Points) -> Points:
         """Move centers until the largest excess no longer falls."""
         centers, excess = self._settle(centers)
         for _ in range(_MOVES * len(centers)):

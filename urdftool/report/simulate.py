@@ -78,6 +78,8 @@ def _list_rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
     if recording.joints:
         joints = f"{format_count(held, 'joint')} held, {unactuated} unactuated or mimic"
     yield "robot", f"{bodies.mass:.4g} kg, {len(bodies.bodies)} bodies, {joints}; root {root}"
+    if held and run.settings.controls is None:
+        yield "held by", describe_holding(verdict)
     if rest.settled is None:
         yield "at rest", f"not in {recording.times[-1]:.3g} s"
     else:
@@ -103,6 +105,14 @@ def _list_rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
             "sweep",
             f"{format_count(len(run.swept), 'joint')} through their limits, {blocked} blocked",
         )
+
+
+def describe_holding(verdict: Verdict) -> str:
+    """Describe what holds the joints, and what an exported robot has instead."""
+    run = verdict.run
+    means = run.recording.capabilities.holds_by
+    passes = "" if run.settings.self_collision else "; no contact between links"
+    return f"{means} within effort limits ('export mjcf': servos, which yield){passes}"
 
 
 def _format_faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
@@ -215,6 +225,7 @@ def _build_trial(verdict: Verdict, timings: bool) -> dict[str, Any]:
         "fixed": run.bodies.fixed_base,
         "rest": _build_final_state(rest),
         "held": {name: recording.targets[name] for name in recording.held},
+        "held_by": recording.capabilities.holds_by if run.settings.controls is None else None,
         "bodies": list(recording.bodies),
         "joints": list(recording.joints),
         "contacts": [asdict(contact) for contact in recording.contacts],

@@ -22,6 +22,7 @@ class Capabilities:
         uses_contact_stiffness: Whether ``<kp>`` and ``<kd>`` of the file apply.
         creeps: Whether contacts may let a robot at rest creep.
         holds_massless_root: Whether a root without mass is fixed at its start pose.
+        holds_by: What holds a joint at its target, for people.
     """
 
     name: str
@@ -35,3 +36,4 @@ class Capabilities:
     uses_contact_stiffness: bool
     creeps: bool
     holds_massless_root: bool
+    holds_by: str
