@@ -146,3 +146,10 @@ def choices_of(command, name):
 )
 def test_words_of_the_command_line_are_those_of_python(command, option, words):
     assert choices_of(command, option) == words
+
+
+def test_several_robots_are_not_taken_for_options():
+    two = robot(links=["a"]), robot(links=["a"])
+    assert api.verify(*two).is_equal
+    with pytest.raises(ConfigError, match="only is 3, which is not a list"):
+        api.verify(*two, only=3)

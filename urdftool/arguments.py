@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
 from numbers import Integral, Real
@@ -48,7 +49,7 @@ def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
     Args:
         function: A function whose module has ``from __future__ import annotations``.
     """
-    names = function.__code__.co_varnames
+    names = function.__code__.co_varnames[: function.__code__.co_argcount]
     kinds: Mapping[str, str] = function.__annotations__
 
     @wraps(function)
@@ -74,7 +75,7 @@ def require_kind(name: str, value: object, annotation: str) -> None:
     if any(_KINDS[word][0](value) for word in words):
         return
     allowed = [_KINDS[word][1] for word in words if word != "None"]
-    raise ConfigError(f"{name} is {value!r}, which is not {' or '.join(allowed)}")
+    raise ConfigError(f"{name} is {reprlib.repr(value)}, which is not {' or '.join(allowed)}")
 
 
 def _split(annotation: str) -> list[str]:

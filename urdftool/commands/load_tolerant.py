@@ -47,6 +47,8 @@ def load_tolerant(
             the reader of its format.
     """
     from ..errors import XmlError
+    from ..formats.common.loss_report import format_lines
+    from ..formats.common.remarks import find_remarks
     from ..formats.detect import format_of
     from ..model.load import make_robot
     from ..source.description import is_xacro
@@ -78,8 +80,8 @@ def load_tolerant(
         report_unknown_arguments(console, description, shown=shown)
     report_assumed_packages(console, description, shown=shown)
     robot = make_robot(description)
-    for rejected in robot.rejected_settings:
-        console.print_note(f"{shown(str(rejected.place))}: warning: {rejected.message}")
+    for line in format_lines(find_remarks(robot)):
+        console.print_note(shown(line))
     return add_implicit_world(console, robot, shown=shown)
 
 

@@ -75,10 +75,15 @@ class Format:
     def write(self, robot: Robot, options: ExportOptions) -> Written:
         """Convert a robot to files of the format, in memory.
 
+        The losses include what the description says that the robot does not hold.
+
         Raises:
             Refused: The robot has defects that prevent the export.
         """
+        from .common.remarks import add_remarks
+
         written: Written = self._make_module("write").write(robot, options)
+        add_remarks(robot, written)
         return written
 
     @property

@@ -8,8 +8,7 @@ from dataclasses import replace
 
 from ...model.elements import Robot
 from ...model.mechanism import NativeElement
-from ..common.drive_choice import AUTO
-from .copied import list_native
+from .copied import has_copied_actuators, list_native
 from .options import Options
 from .read_native_table import MERGED
 
@@ -19,8 +18,8 @@ _NAMED = ("tendon", "contact")
 
 def select_native(source: Robot, options: Options) -> list[NativeElement]:
     """Return the elements of a source that its export copies: all but replaced actuators."""
-    chosen = options.actuators in AUTO
-    return [e for e in list_native(source) if chosen or e.section != "actuator"]
+    copied = has_copied_actuators(source, options)
+    return [e for e in list_native(source) if copied or e.section != "actuator"]
 
 
 def keep_native(expected: Robot, result: Robot) -> list[NativeElement]:
