@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
+from ..errors import SourceError
 from ..finding import Finding
 from ..lint.options import Options
 from ..lint.outcome import Report
@@ -14,8 +15,11 @@ from ..lint.run import check_file
 from ..lint.settings import Settings
 from ..model.elements import Robot
 from ..source.description import Description
-from .diagnostics import convert_findings, make_error
-from .knowledge import Knowledge, RobotState
+from ..source.document import parse
+from .diagnostics import convert_findings, make_error, make_remark
+from .knowledge import MOST_BYTES, Knowledge, RobotState
+
+_NOT_CHECKED = "only its XML is checked while you edit; run 'urdftool lint' for the rest"
 
 
 class _Reads:
@@ -68,6 +72,8 @@ class Checks:
             state = self.knowledge.states.get(robot)
             if state is not None and state.version == self.knowledge.version:
                 continue
+            if self.knowledge.is_large(robot):
+                continue
             self._run(
                 robot, lambda errors: None, replace(self._make_options(robot), settings=nothing)
             )
@@ -83,7 +89,22 @@ class Checks:
         parts_only = robot.endswith(".xacro") and robot not in known
         return replace(options, expand=not parts_only)
 
+    def _check_large(self, robot: str) -> None:
+        """Check only whether a large file is well-formed, and say so."""
+        try:
+            parse(self.knowledge.read(robot))
+            shown = make_remark(robot, f"larger than {MOST_BYTES >> 20} MiB: {_NOT_CHECKED}")
+        except SourceError as error:
+            shown = make_error(self.knowledge, error, robot)
+        reported = {shown.pop("path"): [shown]}
+        self.knowledge.states.setdefault(robot, RobotState()).reported = {*reported}
+        self._emit({"robot": robot, "errors": {}, "findings": reported, "files": [robot]})
+
     def _check_robot(self, robot: str) -> None:
+        if self.knowledge.is_large(robot):
+            self._check_large(robot)
+            return
+
         def emit_errors(errors: list[Finding]) -> None:
             self._emit_result(robot, errors, None, reads)
 

@@ -10,7 +10,7 @@ from ..errors import UrdftoolError
 from ..finding import Finding
 from ..rules import FAMILY_OF
 from ..source.location import Call, Place
-from .knowledge import Knowledge
+from .knowledge import Knowledge, make_path
 
 MOST_CALLS = 20
 """Related places of one diagnostic; chosen: editors show them in a small window."""
@@ -66,6 +66,20 @@ def make_error(knowledge: Knowledge, error: UrdftoolError, path: str) -> dict[st
         "code": error.rule or "not-checked",
         "source": "urdftool",
         "message": error.message,
+        "relatedInformation": [],
+    }
+
+
+def make_remark(path: str, message: str) -> dict[str, Any]:
+    """Return a remark about a file, at its start, as a diagnostic with its ``path``."""
+    start = {"line": 0, "character": 0}
+    return {
+        "path": make_path(path),
+        "range": {"start": start, "end": start},
+        "severity": _LEVELS[Severity.INFO],
+        "code": "not-checked",
+        "source": "urdftool",
+        "message": message,
         "relatedInformation": [],
     }
 

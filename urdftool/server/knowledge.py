@@ -30,7 +30,8 @@ MOST_ROBOTS = 8
 """Robots that are checked for one file of macros; chosen: a check takes up to 0.2 s."""
 
 MOST_BYTES = 4 << 20
-"""Size [bytes] of a document whose names are known; chosen: the largest of 219 has 142 kB."""
+"""Size [bytes] of a document that is checked while it is edited, and whose names are known; chosen:
+the largest of 219 has 142 kB, and a check of 2 MB takes 30 s."""
 
 _DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".mjcf", ".world")
 _NOT_ALONE = (".srdf", ".srdf.xacro")
@@ -210,6 +211,11 @@ class Knowledge:
     def _get_files(self, robot: str) -> set[str]:
         state = self.states.get(robot)
         return set() if state is None else state.files
+
+    def is_large(self, path: str) -> bool:
+        """Tell whether a file is too large to be checked while it is edited."""
+        size = self.workspace.get_size(os.path.realpath(path))
+        return size is not None and size > MOST_BYTES
 
     def is_description(self, path: str) -> bool:
         """Tell whether a file that belongs to no robot can be checked by itself."""

@@ -15,6 +15,9 @@ PATIENCE = 60.0
 """Time [s] without an answer after which the process is killed; chosen: the limit of an expansion,
 which the process keeps by itself, is far below."""
 
+_TRIES = 2
+"""Processes that are asked the same question; chosen, it may be what ends them."""
+
 _START = "import sys; sys.path[:] = sys.argv[1:]; from urdftool.server.worker import serve; serve()"
 
 Report = Callable[[str], None]
@@ -54,6 +57,7 @@ class WorkerProcess:
         self._starting = asyncio.Lock()
         self._report, self._patience = report, patience
         self._answered = 0.0
+        self._endless = 0
         self._tasks: set[asyncio.Task[None]] = set()
 
     def set_document(self, path: str, text: str | None) -> None:
@@ -74,13 +78,18 @@ class WorkerProcess:
     ) -> Any:
         """Ask a question and return its answer; None if there is none.
 
+        A question that waits when the process ends is asked again, except for one that does not end.
+
         Args:
             method: Name of the question.
             params: Its parameters, as JSON.
             receive: Called with each part of the answer.
         """
-        await self._ensure_started()
-        answer = await self._send(method, params, receive)
+        for _ in range(_TRIES):
+            await self._ensure_started()
+            answer = await self._send(method, params, receive)
+            if not answer.get("died"):
+                break
         if "bug" in answer:
             self._report(f"'{method}' failed; please report it:\n{answer['bug']}")
         if "error" in answer:
@@ -135,7 +144,7 @@ class WorkerProcess:
                 self._receive(await process.stdout.readexactly(length))
         await process.wait()
         for number in list(self._waiting):
-            self._finish(number, {"id": number, "result": None})
+            self._finish(number, {"id": number, "result": None, "died": number != self._endless})
 
     def _receive(self, data: bytes) -> None:
         answer = json.loads(data)
@@ -160,6 +169,7 @@ class WorkerProcess:
         while process.returncode is None:
             await asyncio.sleep(self._patience / 10)
             if self._waiting and loop.time() - self._answered > self._patience:
+                self._endless = min(self._waiting)  # it answers one after the other
                 self._report(f"a check took longer than {self._patience:g} s and was ended")
                 self.kill()
                 return
