@@ -78,7 +78,7 @@ class WorkerProcess:
     ) -> Any:
         """Ask a question and return its answer; None if there is none.
 
-        A question that waits when the process ends is asked again, except for one that does not end.
+        What waits when the process ends is asked again, except for a question that does not end.
 
         Args:
             method: Name of the question.
