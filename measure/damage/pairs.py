@@ -7,6 +7,7 @@ damaged robot did not have. Damages whose parts overlap are not planted together
 
 from __future__ import annotations
 
+import math
 import random
 import re
 import sys
@@ -32,6 +33,16 @@ def list_numbers(text: str) -> set[str]:
     return {f"{abs(float(number)):.4g}" for number in NUMBER.findall(text)}
 
 
+def _find_unknown(numbers: set[str], known: set[str]) -> list[str]:
+    """Find the numbers that no known one is equal to, but for rounding to four digits."""
+    values = [float(number) for number in known]
+    return sorted(
+        number
+        for number in numbers - known
+        if not any(math.isclose(float(number), value, rel_tol=1e-3) for value in values)
+    )
+
+
 def plant_pair(
     sample: Sample, kinds: tuple[str, str], folder: Path, seed: int
 ) -> tuple[str, list[set[str]]] | None:
@@ -46,7 +57,7 @@ def plant_pair(
     for kind in kinds:
         try:
             damaged = KINDS[kind](robot, random.Random(f"{sample.path.stem} {kind} {seed}"))
-        except RecursionError:  # the first damage is a circle of joints
+        except (RecursionError, KeyError):  # the first damage is a circle, or a missing link
             return None
         if damaged is None or any(damaged & other for other in hit):
             return None
@@ -76,11 +87,11 @@ def try_pair(
         )
         done = fix_description(report, options, unsafe=True)
         for after in done.after.values():
-            unknown = list_numbers(after.decode()) - list_numbers(text + sample.text + shown)
-            unknown -= {"0", "1"}
+            known_numbers = list_numbers(text + sample.text + shown) | {"0", "1"}
+            unknown = _find_unknown(list_numbers(after.decode()), known_numbers)
             if unknown:
                 yield "numbers of no message"
-                yield f"  {sample.name} {kinds}: {sorted(unknown)[:4]} by {dict(done.applied)}"
+                yield f"  {sample.name} {kinds}: {unknown[:4]} by {dict(done.applied)}"
                 break
         appeared = {(f.code, f.name) for f in done.report.findings} - before
         if appeared:

@@ -16,12 +16,12 @@ def messages(tmp_path, inside, rule):
 
 
 def test_attributes_nobody_reads_are_one_finding_of_all_their_elements(tmp_path):
-    inside = '<dynamics D="1" damping="0.1" K="7000" mu_coulomb="2"/>'
+    inside = '<dynamics D="1" damping="0.1" K="7000" mu="2"/>'
     assert messages(tmp_path, inside, "unknown-attribute") == [
         (
             5,
             "<dynamics> of joint 'j0' (and 2 more) has the unknown attributes 'D', 'K', "
-            "'mu_coulomb'; URDF readers ignore them",
+            "'mu'; URDF readers ignore them",
         )
     ]
 

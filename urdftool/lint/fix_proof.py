@@ -8,11 +8,15 @@ from typing import Any, NamedTuple
 
 from ..diagnostic import Severity
 from ..finding import Finding
-from ..rules.table import FIXES
+from ..rules.table import FIXES, RULES
 from .fingerprint import get_fact, get_word
 from .outcome import Report
 
 Key = tuple[Any, ...]
+
+
+_ABOUT_VALUES = ("tensor", "size", "frame", "sides", "typing_mistakes")
+"""Files of the inertia rules that doubt the values of a tensor."""
 
 
 class Wrong(NamedTuple):
@@ -75,7 +79,26 @@ def find_regression(before: Report, after: Report, chosen: Sequence[Finding]) ->
             new = [f for f in after.findings if f.severity >= level and not there[get_key(f)]]
             what = f"then {new[0].message} [{new[0].code}]" if new else ""
             return Wrong(what or "it would cause more findings", subjects=more)
-    return None
+    return _find_new_doubt(before, after, chosen)
+
+
+def _find_new_doubt(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | None:
+    """Return a finding about an inertia that a fix of another inertia would cause.
+
+    The number that the fix writes is then in doubt itself, even if the new finding is an info. A
+    link that had no inertia is different: what is wrong with it could not be seen before.
+    """
+    family = {name for file in _ABOUT_VALUES for name in RULES["inertia"][file]}
+    if not any(finding.code in family for finding in chosen):
+        return None
+    there = {(finding.code, get_subject(finding)) for finding in before.findings}
+    new = [
+        finding
+        for finding in after.findings
+        if finding.code in family and (finding.code, get_subject(finding)) not in there
+    ]
+    subjects = frozenset(map(get_subject, new))
+    return Wrong(f"then {new[0].message} [{new[0].code}]", subjects=subjects) if new else None
 
 
 def _list_blocking(report: Report) -> list[Finding]:

@@ -33,6 +33,7 @@ from .variants import list_variant_files
 
 _DEFINITIONS = frozenset(f"xacro:{word}" for word in ("macro", "property", "arg", "include"))
 _FIND = re.compile(r"^(?:file://)?\$\(find ([\w.-]+)\)/")
+_AFTER_EXPRESSION = re.compile(r"^.*(?:\)|\}|\*)", re.DOTALL)
 _LAUNCHES = (".launch", ".launch.py", ".launch.xml", "_launch.py", "_launch.xml", "CMakeLists.txt")
 _MOST_BYTES = 1 << 20
 """Size [bytes] above which a launch file is not read; chosen."""
@@ -82,6 +83,8 @@ class _Search:
         workspace: Access to files.
         candidates: Why a ``.xacro`` file may be a robot by its content, by resolved path.
         nameless: Resolved paths of xacro files whose ``<robot>`` has no name.
+        tails: Ends of the names that xacro computes for the files of ``<xacro:include>``, after the
+            last expression, by the resolved path of the file that includes.
     """
 
     found: Repository
@@ -91,6 +94,7 @@ class _Search:
     workspace: Workspace
     candidates: dict[str, str] = field(default_factory=dict)
     nameless: set[str] = field(default_factory=set)
+    tails: dict[str, list[str]] = field(default_factory=dict)
 
     def make_packages(self, path: str) -> Packages:
         """Return a finder of packages for a file."""
@@ -139,12 +143,14 @@ class _Search:
                 continue
             if "$" in target or "*" in target:
                 self.found.computes.add(real)
+                self.tails.setdefault(real, []).append(_AFTER_EXPRESSION.sub("", target))
                 continue
             target = os.path.join(os.path.dirname(path), target)
             yield os.path.realpath(packages.find_installed(target))
 
     def add_by_content(self) -> None:
         """Add the candidates that no other file includes."""
+        self._add_computed_includes()
         included = {
             path for real, paths in self.found.includes.items() for path in paths if path != real
         }
@@ -153,6 +159,13 @@ class _Search:
         for real, why in self.candidates.items():
             if real not in included:
                 self.found.robots[real] = RobotFile(self.found.paths[real], why)
+
+    def _add_computed_includes(self) -> None:
+        """Record the files whose path ends as a computed name does: ``$(arg dir)/arm.xacro``."""
+        for real, tails in self.tails.items():
+            ends = tuple(tail for tail in tails if tail.startswith("/") and len(tail) > 1)
+            also = [path for path in self.found.paths if path != real and path.endswith(ends)]
+            self.found.includes[real] += also if ends else []
 
     def add_configured(self, folder: str) -> None:
         """Add the files that the configurations of a folder and below it name."""

@@ -23,7 +23,7 @@ from ..words import join_some
 from ..xml.vocabulary_table import find_misspelled_children
 
 _FRAME = re.compile(r"optical|(^|_)frame$")
-_VIRTUAL = re.compile(r"(^|_)(virtual|dummy)(_|\d|$)", re.IGNORECASE)
+_VIRTUAL = re.compile(r"(^|_)(virtual|dummy)(_|\d|$)|_visuals?$", re.IGNORECASE)
 _CONTACT = re.compile(r"wheel|caster|(^|_)(foot|feet)(_|\d|$)", re.IGNORECASE)
 _LOAD = "gz, gazebo-classic, pybullet, pinocchio, drake"
 _PASS = "gz, gazebo-classic, pybullet"

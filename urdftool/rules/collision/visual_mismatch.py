@@ -14,8 +14,10 @@ from ..mesh.link_extents import LinkExtents, get_extents
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses, is_concave
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..shape_changes import copy_origin, set_in_origin
+from ..words import join_some
 from .displaced import find_displaced
 from .misalignment import Misalignment, compare_places, join_attached_boxes, measure_boxes
+from .z_up_visuals import find_z_up_visuals
 
 APPLIES_TO = ("collision",)
 
@@ -24,7 +26,8 @@ _SIMPLER = "'urdftool collision' creates simpler geometry, and measures its erro
 _FOR_CONTACT = re.compile(r"collision|convex|hull|simpl|low[-_]?poly", re.IGNORECASE)
 """Names of meshes that were made for contact, and are shown because no other mesh exists."""
 
-_AXES = "; if a glTF file has Z up, RViz rotates it: export it with Y up, or use --gltf-up z"
+_Z_UP = "RViz rotates it: export it with Y up, or use --gltf-up z"
+_AXES = f"; if a glTF file has Z up, {_Z_UP}"
 
 
 def count_faces(use: MeshUse) -> int:
@@ -177,7 +180,7 @@ def collision_mesh_too_dense(
     formats=ANY_FORMAT,
 )
 def collision_much_larger_than_visual(
-    robot: Robot, *, ratio: float = 2.0, least: float = 0.1
+    robot: Robot, description: Description, *, ratio: float = 2.0, least: float = 0.1
 ) -> Iterator[Problem]:
     """The collision geometry of a link is far larger than its visual geometry.
 
@@ -196,7 +199,7 @@ def collision_much_larger_than_visual(
             or _find_longer_axis(collision_box, visual_box, ratio, least) is None
         ):
             continue
-        if find_displaced(robot, link):
+        if find_displaced(robot, link) or link in find_z_up_visuals(robot, description):
             continue
         around = join_attached_boxes(reach, link, "visuals", visual_box, collision_box)
         if (
@@ -346,10 +349,14 @@ def collision_off_visual(
     and center of mass agree, the third is wrong; otherwise the one whose origin repeats that of the
     joint. Geometry of different sizes is an info, because simple shapes may be offset on purpose,
     unless the collision is apart from the visual and the center of mass, which agree.
-    Collisions that the visual of a joined or attached link covers are not reported.
+    Collisions that the visual of a joined or attached link covers are not reported. Visuals in glTF
+    files that agree with the collision only if the file has Z up are one finding.
     """
+    z_up = find_z_up_visuals(robot, description)
+    if z_up:
+        yield _report_z_up(z_up)
     for link in robot.links:
-        found = compare_places(robot, link, apart)
+        found = compare_places(robot, link, apart) if link not in z_up else None
         if found is None or find_displaced(robot, link):
             continue
         gltf = any(map(is_gltf, link.visuals)) or any(map(is_gltf, link.collisions))
@@ -376,6 +383,21 @@ def collision_off_visual(
                 "is_rotated": is_rotated,
             },
         )
+
+
+def _report_z_up(links: list[Link]) -> Problem:
+    """Report links whose glTF visuals agree with their collisions only if the files have Z up."""
+    first = links[0]
+    names = join_some([f"'{link.name}'" for link in links[1:]], "links")
+    also = f", and so do those of {names}" if names else ""
+    return Problem(
+        first,
+        f"visual of link '{first.name}' agrees with its collision only if its glTF file has Z up"
+        f"{also}, but glTF has Y up; {_Z_UP}",
+        at=first.visuals[0],
+        data={"odd": "", "write": "", "same": False, "is_rotated": True},
+        alike="Z up",
+    )
 
 
 def _is_alone(robot: Robot, link: Link, found: Misalignment) -> bool:

@@ -63,7 +63,7 @@ def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 @rule(
-    WARNING,
+    INFO,
     on=("ros1",),
     effects={
         "gazebo_ros_control": "accepts it, with a warning of deprecated syntax at every start",

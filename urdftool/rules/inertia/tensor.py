@@ -252,7 +252,7 @@ def zero_inertia(
             effects=[
                 f"gz, gazebo-classic ({in_gazebo})",
                 *["mujoco"] * rejected,
-                *["pinocchio"] * (not is_part),
+                *["pinocchio"] * (not is_part and joint is not None),
             ],
             alike=(any(six), get_solid_kind(link)),
         )

@@ -14,7 +14,7 @@ from ...model.read import number
 from ...source.document import Element
 from ..fix import FixContext, Proposal, find_attribute, remove_attribute, safe
 from ..mesh.link_extents import get_extents
-from ..rule import ERROR, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
+from ..rule import ERROR, INFO, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from .corrections import write_proposed_inertia
 from .proposals import find_proposal, format_tensor
 from .solids import compute_solid_tensor
@@ -146,7 +146,7 @@ def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
 
     The tensor is symmetric and readers take only the upper half. If the lower half has other
     values, another matrix was intended. If the upper half lacks the component, the attribute has
-    the wrong name.
+    the wrong name. A lower half that repeats the upper is an info.
     """
     for link in robot.links:
         if link.inertial is None or link.inertial.inertia is None:
@@ -166,6 +166,7 @@ def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
                 link,
                 f"readers ignore {name} in the inertia of link '{link.name}'; {remedy}",
                 at=element.locate_attribute(name),
+                severity=INFO if repeats else None,
                 effects=None if twin in element.attributes else (),
                 data={"twin": twin, "repeats": repeats},
             )

@@ -173,12 +173,13 @@ _WITHOUT_BOUNDS = {
     effects=_WITHOUT_BOUNDS,
     group="robot",
 )
-def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
+def limit_without_bounds(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """The ``<limit>`` of a revolute or prismatic joint has no lower or no upper bound.
 
     ROS and Gazebo take 0 for a missing bound. If both are missing they lock the joint at 0, while
     MuJoCo, PyBullet and Drake load it without limits. Exporters write this for wheels, which should
-    be ``continuous``.
+    be ``continuous``. Only a missing lower bound below a positive upper one is reported for Newton
+    alone: 0 is the default of URDF.
     """
     for joint in robot.joints:
         limit = joint.limit
@@ -190,6 +191,8 @@ def limit_without_bounds(robot: Robot) -> Iterator[Problem]:
             missing = [name for name in missing if name not in meant.values()]
         if not missing:
             continue
+        if missing == ["lower"] and not _is_empty(limit) and "newton" not in targets:
+            continue  # the default of URDF, 0, which all readers of the targets take
         case = "lower missing" if missing[0] == "lower" else "upper missing"
         if len(missing) == 2:
             case = "both missing"

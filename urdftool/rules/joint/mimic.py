@@ -192,6 +192,8 @@ def mimic_chain(robot: Robot) -> Iterator[Problem]:
         leader = robot.joint.get(mimic.joint)
         if leader is None or leader.mimic is None or leader is joint:
             continue
+        if joint.is_fixed or leader.is_fixed:
+            continue  # mimic-dof-mismatch reports it
         first = robot.joint.get(leader.mimic.joint)
         if first is None or first is joint or first.mimic is not None:
             continue

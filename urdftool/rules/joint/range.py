@@ -204,7 +204,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
     """
     for joint in robot.joints:
         limit = joint.limit
-        if joint.type != "revolute" or limit is None or _is_frame_joint(robot, joint):
+        if joint.type != "revolute" or limit is None or _is_part_of_free_base(robot, joint):
             continue
         lower, upper = limit.lower or 0.0, limit.upper or 0.0
         if max(abs(lower), abs(upper)) <= largest:
@@ -456,6 +456,14 @@ def _is_frame_joint(robot: Robot, joint: Joint) -> bool:
             return True
         joint = above
     return False
+
+
+def _is_part_of_free_base(robot: Robot, joint: Joint) -> bool:
+    """Tell whether a joint is one of several that give a free robot its pose, or their last."""
+    above = robot.tree.get_parent_joint(joint.parent)
+    if _is_frame_joint(robot, joint):
+        return True
+    return above is not None and not above.is_fixed and _is_frame_joint(robot, above)
 
 
 def _has_shape_as_long(robot: Robot, length: float) -> bool:

@@ -169,6 +169,7 @@ _MISNAMED = ("uri", "file", "url")
         "pybullet, drake": "reject the robot: the file is not found",
         "mujoco": "rejects the robot: the file is not found",
     },
+    group="robot",
 )
 def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
     r"""The URI of a mesh file is malformed.
@@ -188,17 +189,28 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
         wrong = find_malformation(use)
         if wrong:
             element = use.mesh.element
-            passes = use.exists and "\\" not in use.uri
-            slashes = wrong.defect == "double slash"
+            passes = (use.exists or _is_beside(use, description)) and "\\" not in use.uri
+            passes = passes or (wrong.defect == "blank" and use.path is None)
+            slashes, named = wrong.defect == "double slash", wrong.defect != "no file"
             opened = keeps or use.collides
             yield Problem(
                 use.link,
                 wrong.text,
                 at=element.locate_attribute("filename"),
-                severity=INFO if slashes else WARNING if passes else ERROR,
+                severity=INFO if slashes else WARNING if passes and named else ERROR,
                 data={"uri": use.uri, "defect": wrong.defect},
+                alike=wrong.defect,
                 effects=[] if passes else ["pybullet, drake", *["mujoco"] * opened],
             )
+
+
+def _is_beside(use: MeshUse, description: Description) -> bool:
+    """Tell whether the path of a URI is a file from the folder of the description on.
+
+    PyBullet and MuJoCo open ``package:///arm.stl`` so.
+    """
+    inside = use.uri.partition("://")[2].lstrip("/")
+    return bool(inside) and use.workspace.is_file(description.packages.file.parent / inside)
 
 
 class Malformation(NamedTuple):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from pathlib import Path
 
 from ...model.elements import Robot
 from ...source.description import Description
@@ -75,7 +76,7 @@ def _report_assumed_packages(robot: Robot, description: Description) -> Iterator
             uses[0].link,
             f"package '{name}' is not found, so {meshes} read from the folder "
             f"'{shorten_path(folder)}', as PyBullet does; write "
-            f"'{_make_uri(uses[0], description)}'",
+            f"'{_make_uri_from(uses[0], folder, description)}'",
             at=uses[0].mesh.locate_attribute("filename"),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (a folder)"),
         )
@@ -94,6 +95,17 @@ def _make_uri(use: MeshUse, description: Description) -> str:
     start = file.parent if own is None else own[1]
     inside = os.path.relpath(path, start).replace(os.sep, "/")
     return inside if own is None or inside.startswith("..") else f"package://{own[0]}/{inside}"
+
+
+def _make_uri_from(use: MeshUse, folder: Path, description: Description) -> str:
+    """Make the URI or path of a mesh that is read from a folder in place of its package.
+
+    It is known also if the file is missing or must not be read.
+    """
+    if use.path is not None:
+        return _make_uri(use, description)
+    path = Path(folder) / _get_inner_path(use.uri)
+    return os.path.relpath(path, description.packages.file.parent).replace(os.sep, "/")
 
 
 def is_in_own_package(use: MeshUse, description: Description) -> bool:

@@ -159,6 +159,9 @@ _WITH_DEFAULT = {
 }
 """Optional attributes, by element."""
 
+_OF_FRANKA = frozenset(("D", "K", "mu_coulomb", "mu_viscous"))
+"""Attributes of ``<dynamics>`` in franka_description, next to those of URDF."""
+
 _RARE = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
 """Rarely used attributes, by element."""
 
@@ -189,7 +192,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         parent = element.parent
         if parent is None or parent.tag == "dynamics" or element.tag in of_xacro:
             continue
-        if (parent.tag, element.tag) in _HARMLESS:
+        if (parent.tag, element.tag) in _HARMLESS or _is_zero_origin(element):
             continue
         if parent.tag == "geometry" and not _is_misplaced(element, parent):
             continue
@@ -207,6 +210,12 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         where = f"{_describe(elements[0].parent)}{_format_count(elements)}"
         message = f"<{kind[1]}> does not belong in {where}; URDF readers ignore it"
         yield Problem(elements[0], message, severity=INFO, alike=(*kind, len(elements) > 1))
+
+
+def _is_zero_origin(element: Element) -> bool:
+    """Tell whether an ``<origin>`` does not move anything, as exporters write one into links."""
+    words = f"{element.get('xyz') or ''} {element.get('rpy') or ''}".split()
+    return element.tag == "origin" and all(number(word) == 0 for word in words)
 
 
 def _is_misplaced(element: Element, geometry: Element) -> bool:
@@ -267,7 +276,9 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
             strange = [
                 n
                 for n in _iterate_unknown_attributes(element, known)
-                if _is_unsuggested(element, n) and number(element.get(n)) != 0
+                if _is_unsuggested(element, n)
+                and number(element.get(n)) != 0
+                and not (n in _OF_FRANKA and {"damping", "friction"} <= element.attributes.keys())
             ]
             for severity in (WARNING, INFO):
                 is_info = severity is INFO

@@ -1,0 +1,137 @@
+"""Findings of packages of PyPI that were noise or wrong, by their causes, with counter-cases."""
+
+import pytest
+import trimesh
+
+from urdftool.api.lint import check
+from urdftool.lint.robot_search import find_robots
+from urdftool.workspace import Workspace
+
+LINK = '<link name="{}">{}</link>'
+JOINT = (
+    '<joint name="{0}" type="{1}"><parent link="{2}"/><child link="{3}"/><axis xyz="0 0 1"/>{4}'
+    "</joint>"
+)
+BODY = (
+    '<inertial><mass value="{mass}"/><inertia ixx="{moment}" ixy="0" ixz="0" iyy="{moment}" '
+    'iyz="0" izz="{moment}"/></inertial>'
+)
+TURNS = '<limit lower="-20" upper="20" effort="1" velocity="1"/>'
+
+
+def find(tmp_path, rule, *parts, files=()):
+    for name, text in dict(files).items():
+        (tmp_path / name).write_text(text, "utf-8")
+    path = tmp_path / "r.urdf"
+    path.write_text(f'<robot name="r">{"".join(parts)}</robot>', "utf-8")
+    return check(path, select=[rule])
+
+
+@pytest.mark.parametrize(("body", "count"), [("", 0), (BODY.format(mass=1, moment=0.01), 1)])
+def test_the_last_joint_of_a_free_base_may_turn_often(tmp_path, body, count):
+    parts = [
+        *(LINK.format("root", ""), LINK.format("frame", body)),
+        LINK.format("hand", BODY.format(mass=1, moment=0.01)),
+        JOINT.format("z", "prismatic", "root", "frame", TURNS),
+        JOINT.format("turn", "revolute", "frame", "hand", TURNS),
+    ]
+    assert len(find(tmp_path, "limit-in-degrees", *parts)) == count
+
+
+@pytest.mark.parametrize(("xyz", "count"), [("0 0 0", 0), ("0 0 0.1", 1)])
+def test_an_origin_of_a_link_that_moves_nothing(tmp_path, xyz, count):
+    part = LINK.format("a", f'<origin xyz="{xyz}" rpy="0 -0 0"/>')
+    assert len(find(tmp_path, "unknown-element", part)) == count
+
+
+@pytest.mark.parametrize(("kind", "count"), [("fixed", 0), ("revolute", 1)])
+def test_a_fixed_joint_is_not_advised_another_leader(tmp_path, kind, count):
+    limit = '<limit lower="0" upper="1" effort="1" velocity="1"/>'
+    mimic = limit + '<mimic joint="{}"/>'
+    parts = [LINK.format(name, "") for name in "abcd"]
+    parts += [
+        JOINT.format("one", "revolute", "a", "b", limit),
+        JOINT.format("two", "revolute", "a", "c", mimic.format("one")),
+        JOINT.format("three", kind, "a", "d", mimic.format("two")),
+    ]
+    assert len(find(tmp_path, "mimic-chain", *parts)) == count
+
+
+@pytest.mark.parametrize(("name", "count"), [("arm_visuals", 0), ("arm", 1)])
+def test_a_link_that_is_only_to_be_seen_needs_no_collision(tmp_path, name, count):
+    visual = '<visual><geometry><box size="0.5 0.5 0.5"/></geometry></visual>'
+    ball = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+    parts = [LINK.format("base", ball), LINK.format(name, visual)]
+    parts.append(JOINT.format("j", "continuous", "base", name, ""))
+    assert len(find(tmp_path, "missing-collision", *parts)) == count
+
+
+@pytest.mark.parametrize(("value", "severity"), [("1e-5", "info"), ("2e-5", "warning")])
+def test_a_lower_half_that_repeats_the_upper_is_an_info(tmp_path, value, severity):
+    inertial = BODY.format(mass=1, moment=0.01).replace('ixy="0"', f'ixy="1e-5" iyx="{value}"')
+    (found,) = find(tmp_path, "redundant-inertia-attributes", LINK.format("a", inertial))
+    assert found.severity.label == severity
+
+
+def test_pinocchio_does_not_use_the_inertia_of_the_root(tmp_path):
+    zero = BODY.format(mass=1, moment=0)
+    parts = [LINK.format("a", zero), LINK.format("b", zero)]
+    parts.append(JOINT.format("j", "continuous", "a", "b", ""))
+    found = find(tmp_path, "zero-inertia", *parts)
+    assert {f.name: "pinocchio" in f.effects for f in found} == {"a": False, "b": True}
+
+
+STL = (
+    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+    "endfacet\nendsolid a\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("uri", "files", "effects"),
+    [
+        ("package:///a.stl", {"a.stl": STL}, []),
+        ("package:///b.stl", {"a.stl": STL}, ["pybullet, drake", "mujoco"]),
+    ],
+)
+def test_a_uri_without_a_package_that_readers_open(tmp_path, uri, files, effects):
+    shape = f'<collision><geometry><mesh filename="{uri}"/></geometry></collision>'
+    (found,) = find(tmp_path, "malformed-uri", LINK.format("a", shape), files=files)
+    assert found.severity.label == "error"
+    assert list(found.effects) == effects
+
+
+def test_the_path_of_a_mesh_that_is_read_from_a_folder_of_the_name(tmp_path):
+    (tmp_path / "arm" / "meshes").mkdir(parents=True)
+    (tmp_path / "arm" / "meshes" / "a.stl").write_text(STL)
+    (tmp_path / "urdf").mkdir()
+    shape = '<visual><geometry><mesh filename="package://arm/meshes/a.stl"/></geometry></visual>'
+    found = find(tmp_path / "urdf", "package-not-found", LINK.format("a", shape))
+    assert [f.message.rpartition("write ")[2] for f in found] == ["'../arm/meshes/a.stl'"]
+
+
+@pytest.mark.parametrize(("size", "count"), [((0.1, 0.2, 0.6), 1), ((0.1, 0.6, 0.2), 0)])
+def test_a_gltf_file_with_z_up_is_one_finding(tmp_path, size, count):
+    box = trimesh.creation.box(size)
+    box.export(tmp_path / "arm.glb")
+    visual = '<visual><geometry><mesh filename="arm.glb"/></geometry></visual>'
+    solid = '<collision><geometry><box size="0.1 0.2 0.6"/></geometry></collision>'
+    parts = [LINK.format(name, visual + solid) for name in ("a", "b", "c")]
+    parts += [JOINT.format(name, "fixed", "a", name, "") for name in ("b", "c")]
+    rules = ("collision-off-visual", "collision-much-larger-than-visual")
+    found = [f for rule in rules for f in find(tmp_path, rule, *parts)]
+    assert ["has Z up, and so do those of 'b', 'c'" in f.message for f in found] == [True] * count
+
+
+def test_a_file_that_is_included_by_a_computed_folder_is_part_of_a_robot(tmp_path):
+    head = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+    (tmp_path / "xacro").mkdir()
+    for name, inside in (
+        ("top.xacro", '<link name="a"/><xacro:include filename="$(arg dir)/xacro/main.xacro"/>'),
+        ("xacro/main.xacro", '<link name="b"/>'),
+        ("xacro/other.xacro", '<link name="c"/>'),
+    ):
+        (tmp_path / name).write_text(f"{head}{inside}</robot>", "utf-8")
+    found = find_robots([str(tmp_path)], workspace=Workspace())
+    names = {robot.path.rpartition("/")[2] for robot in found.robots.values()}
+    assert names == {"top.xacro", "other.xacro"}
