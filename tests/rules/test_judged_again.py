@@ -81,6 +81,26 @@ def test_pinocchio_does_not_use_the_inertia_of_the_root(tmp_path):
     assert {f.name: "pinocchio" in f.effects for f in found} == {"a": False, "b": True}
 
 
+@pytest.mark.parametrize(("roll", "count"), [(0.07, 0), (0.09, 1)])
+def test_a_joint_that_takes_a_displacement_back(tmp_path, roll, count):
+    inertial = BODY.format(mass=1, moment=0.01)
+    steps = {"hip": 0.1, "knee": 0.2, "ankle": 0.3, "pitch": 0.15, "roll": 0.08, "elbow": 0.2}
+    parts = [LINK.format("base", inertial)]
+    for side, sign in (("left", 1), ("right", -1)):
+        above = "base"
+        for name, step in steps.items():
+            above = "base" if name in ("hip", "pitch") else above
+            if side == "right":
+                step = {"pitch": 0.16, "roll": roll}.get(name, step)
+            link = f"{side}_{name}"
+            parts.append(LINK.format(link, inertial))
+            origin = f'<origin xyz="0 {sign * step} 0"/>'
+            parts.append(JOINT.format(f"{link}_joint", "continuous", above, link, origin))
+            above = link
+    found = find(tmp_path, "joint-not-mirrored", *parts)
+    assert len(found) == count
+
+
 STL = (
     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
     "endfacet\nendsolid a\n"

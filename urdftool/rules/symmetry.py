@@ -103,6 +103,19 @@ class Sides:
         """Tell whether the joints of a pair are not mirror images."""
         return id(pair.left) in self._displaced
 
+    def takes_back(self, pair: Pair) -> bool:
+        """Tell whether the links of a pair are mirror images in the root frame.
+
+        The joints above are then displaced by as much as those of the pair, such as along an axis.
+        """
+        normal = 1 if self.normal is None else self.normal
+        one, other = self.poses.get(pair.left.name), self.poses.get(pair.right.name)
+        if one is None or other is None:
+            return False
+        left, right = list(one.translation), list(other.translation)
+        right[normal] = -right[normal]
+        return math.dist(left, right) <= _compute_tolerance(one.translation)
+
     def is_taken_back(self, pair: Pair) -> bool:
         """Tell whether the next joints of a displaced pair are mirror images again."""
         return any(

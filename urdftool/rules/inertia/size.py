@@ -307,6 +307,7 @@ def inertia_below_geometry(
         "pinocchio": "takes it as written",
     },
     of_motion=True,
+    caused_by=("inertia-triangle-inequality", "inertia-not-positive-definite"),
     formats=ANY_FORMAT,
 )
 def radius_of_gyration(

@@ -391,6 +391,7 @@ def round_limit_toward_zero(problem: Problem, _context: FixContext) -> Proposal 
 
 @rule(
     INFO,
+    default=False,
     on=("moveit",),
     effects={
         "moveit": "takes the whole range: several joint positions give one pose",

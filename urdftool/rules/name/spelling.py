@@ -28,15 +28,20 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
 
     Every link is a tf frame, and tf2 rejects such names. If the names of more than ``together``
     links begin with a slash, they are one finding, because usually an empty prefix is the cause.
+    It is an info if an expression of xacro that is empty precedes the slash, because the launch
+    file may pass a value.
     """
     slashed = [link for link in robot.links if link.name.startswith("/")]
     if len(slashed) > together:
         first = slashed[0]
+        is_computed = all(map(_begins_with_expression, slashed))
+        remedy = "pass the prefix" if is_computed else "remove the slash"
         yield Problem(
             first,
             f"names of {len(slashed)} links begin with a slash, which tf2 rejects (first "
-            f"'{first.name}'); remove the slash, or write the empty prefix",
+            f"'{first.name}'); {remedy}, or write the empty prefix",
             at=first.locate_attribute("name"),
+            severity=INFO if is_computed else None,
         )
     for link in robot.links:
         name = link.name
@@ -55,8 +60,18 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
             link,
             f"name of link '{name}' {what}, which tf2 rejects; write '{right}'",
             at=link.locate_attribute("name"),
+            severity=INFO if name.startswith("/") and _begins_with_expression(link) else None,
             data={"write": right},
         )
+
+
+def _begins_with_expression(link: Link) -> bool:
+    """Tell whether the source of a link's name begins with ``${…}`` or ``$(…)``."""
+    if link.xml is None:
+        return False
+    place = link.xml.place
+    tag = place.file.data[place.start : place.end].partition(b">")[0]
+    return re.search(rb"\bname\s*=\s*[\"']\s*\$[{(]", tag) is not None
 
 
 @invalid_frame_name.fix(UNSAFE, renames=True)
