@@ -103,7 +103,7 @@ class Sides:
         """Tell whether the joints of a pair are not mirror images."""
         return id(pair.left) in self._displaced
 
-    def takes_back(self, pair: Pair) -> bool:
+    def is_mirrored_in_root(self, pair: Pair) -> bool:
         """Tell whether the links of a pair are mirror images in the root frame.
 
         The joints above are then displaced by as much as those of the pair, such as along an axis.

@@ -33,7 +33,7 @@ def joint_not_mirrored(robot: Robot, *, small: float = 0.01) -> Iterator[Problem
     sides = get_sides(robot)
     for pair, gap in sides.off:
         right = pair.right_joint
-        if right.is_fixed or sides.is_taken_back(pair) or sides.takes_back(pair):
+        if right.is_fixed or sides.is_taken_back(pair) or sides.is_mirrored_in_root(pair):
             continue
         if right.parent != pair.left_joint.parent and _has_the_same_origin(pair):
             continue
