@@ -1,4 +1,4 @@
-"""What a description says and a robot does not hold: one sentence, in every command."""
+"""What a description writes and a robot does not hold: one sentence, in every command."""
 
 import pytest
 

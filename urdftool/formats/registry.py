@@ -75,7 +75,7 @@ class Format:
     def write(self, robot: Robot, options: ExportOptions) -> Written:
         """Convert a robot to files of the format, in memory.
 
-        The losses include what the description says that the robot does not hold.
+        The losses include what the description writes and the robot does not hold.
 
         Raises:
             Refused: The robot has defects that prevent the export.

@@ -1,4 +1,4 @@
-"""What a description says that no part of a robot can hold, or that it says twice."""
+"""What a description writes that no part of a robot can hold, or that it writes twice."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Remark(NamedTuple):
 
 
 def list_remarks(robot: Robot) -> Iterator[Remark]:
-    """Yield what a robot does not hold as its description says it; none for other formats."""
+    """Yield what a robot does not hold as it is written; none for other formats."""
     for one in robot.rejected_settings:
         yield Remark("rejected-setting", one.place, one.kind, one.name, one.message)
     rejected = {one.place for one in robot.rejected_settings}

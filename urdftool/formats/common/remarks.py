@@ -1,4 +1,4 @@
-"""What a description says that its robot does not hold, as losses of an export."""
+"""What a description writes and its robot does not hold, as losses of an export."""
 
 from __future__ import annotations
 
