@@ -124,7 +124,7 @@ def test_constructs_expand_as_xacro_expands_them(inside, tmp_path):
 pieces = st.sampled_from(["${", "}", "$", "$$", "$(", ")", "a", "1+1", " ", "{", "(", "'", "arg x"])
 
 
-@settings(max_examples=120)
+@settings(max_examples=60)
 @given(st.lists(pieces, max_size=7).map("".join))
 def test_any_text_is_evaluated_as_xacro_evaluates_it(text):
     file = SourceFile("r.xacro", b'<r xmlns:xacro="http://www.ros.org/wiki/xacro"/>')

@@ -96,7 +96,7 @@ def random_robots(count):
 
 
 @pytest.mark.parametrize("odd", [False, True])
-@random_robots(8)
+@random_robots(4)
 def test_a_random_robot_is_itself(write, odd, seed):
     check_a_random_robot(write, odd, seed)
 
