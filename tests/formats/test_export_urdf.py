@@ -93,3 +93,47 @@ def test_nothing_is_written_without_the_mesh(urdftool, write, tmp_path):
     assert result.code == 2
     assert "r.sdf:" in result.err
     assert not (tmp_path / "out").exists()
+
+
+SCENE = """<mujoco model="bot"><worldbody>
+  <geom name="floor" type="plane" size="0 0 1"/>
+  <body name="ball" pos="1 0 0.5"><freejoint/><geom size="0.05" mass="0.2"/></body>
+  <body name="base" pos="0 0 0.5"><freejoint/><geom type="box" size="0.2 0.1 0.05" mass="3"/>
+    <body name="wheel" pos="0.1 0.1 0"><joint name="w" axis="0 1 0"/>
+      <geom type="cylinder" size="0.06 0.02" euler="90 0 0" mass="0.4"/></body>
+    <body name="arm" pos="0 0 0.1"><joint name="a" axis="0 0 1" range="-60 60"/>
+      <geom type="capsule" size="0.02" fromto="0 0 0 0 0 0.3" mass="0.5"/></body>
+  </body></worldbody>
+  <actuator>
+    <velocity name="w" joint="w" kv="3.5" forcerange="-4 4" ctrlrange="-9 9"/>
+    <position name="a" joint="a" kp="30" kv="2" forcerange="-8 8" ctrlrange="-1 0.5"/>
+  </actuator></mujoco>"""
+
+
+@mujoco
+def test_bodies_next_to_the_robot_are_left_out_and_named(write):
+    robot = api.load(write("scene.xml", SCENE))
+    written = api.export_urdf(robot, verify=True)
+    assert {check.verdict for check in written.checks} <= {"equal", "none", "not compared"}
+    assert {loss.code: loss.severity.name for loss in written.losses}["lossy-tree"] == "WARNING"
+    made = api.load(write("bot.urdf", written.files[written.main].decode()))
+    assert [link.name for link in made.links] == ["base", "wheel", "arm"]
+    assert {joint.name: joint.type for joint in made.joints} == {"w": "continuous", "a": "revolute"}
+    ball = api.export_urdf(robot, root="ball")
+    assert b'<link name="ball">' in ball.files[ball.main]
+    assert b'<link name="base">' not in ball.files[ball.main]
+    with pytest.raises(api.errors.ModelError, match="its trees begin at 'ball', 'base'"):
+        api.export_urdf(robot, root="bal")
+
+
+@mujoco
+def test_numbers_have_no_noise_and_gains_come_back(write):
+    written = api.export_urdf(api.load(write("scene.xml", SCENE)))
+    text = written.files[written.main].decode()
+    assert "00000000" not in text.replace("1000000000", "")
+    assert "e-1" not in text
+    back = api.export_mjcf(api.load(write("bot.urdf", text)))
+    model = back.files[back.main].decode()
+    assert '<velocity name="w" joint="w" kv="3.5" ctrlrange="-9 9"/>' in model
+    assert '<position name="a" joint="a" kp="30" kv="2" ctrlrange="-1 0.5"/>' in model
+    assert "lossy-gains" not in {loss.code for loss in back.losses}

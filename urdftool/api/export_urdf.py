@@ -15,6 +15,7 @@ def export_urdf(
     robot: Robot,
     output: str | Path | None = None,
     *,
+    root: str = "",
     frames: bool = True,
     hardware: str = HARDWARE,
     srdf: bool = True,
@@ -28,6 +29,8 @@ def export_urdf(
     Args:
         robot: A robot from ``load``.
         output: A folder, or a file that ends in .urdf; None writes nothing.
+        root: Root link of the tree to write, of a model with several; empty for the one with most
+            joints that move.
         frames: Whether sites, frames and optical frames of cameras become links without mass.
         hardware: Plugin of the hardware in ``<ros2_control>``, which holds the actuators; empty
             drops them.
@@ -50,7 +53,13 @@ def export_urdf(
 
     is_file = output is not None and Path(output).suffix.lower() == ".urdf"
     file = Path(output).name if output is not None and is_file else ""
-    choices = {"frames": frames, "hardware": hardware, "mesh_dir": mesh_dir, "force": force}
+    choices = {
+        "root": root,
+        "frames": frames,
+        "hardware": hardware,
+        "mesh_dir": mesh_dir,
+        "force": force,
+    }
     options = make_options(Options, choices, file=file, srdf=srdf)
     urdf = format_named("urdf")
     written = urdf.write(robot, options)

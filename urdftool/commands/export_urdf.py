@@ -16,7 +16,7 @@ from .options import add_gltf_option, add_package_options
 
 _GROUPS = {
     "Output": "output mesh_dir overwrite style",
-    "Conversion": "frames hardware",
+    "Conversion": "root frames hardware",
     "Verification": "verified strict force",
 }
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from ..model.elements import Link, Plane, Robot
-from ..model.tree import KinematicTree
+from ..model.elements import Plane, Robot
+from ..model.selection import count_parts, list_below, measure_tree, select_links
 from ..model.world import WORLD
 
 
@@ -31,9 +30,9 @@ def take_robot(robot: Robot) -> tuple[Robot, list[str]]:
     tops = {joint.child: joint for joint in tree.get_child_joints(WORLD)}
     names = {link.name for link in robot.links}
     if len(tops) > 1 and any(joint.type == "floating" for joint in tops.values()):
-        sizes = {top: _measure(tree, top) for top in tops}
+        sizes = {top: measure_tree(tree, top) for top in tops}
         chosen = max(sizes, key=lambda top: sizes[top])
-        names = {WORLD, *_list_below(tree, chosen)}
+        names = {WORLD, *list_below(tree, chosen)}
         left_out += [f"link '{top}'" for top in tops if top != chosen]
         left_out += [f"collision '{c.name}' of link 'world'" for c in solid]
         solid = []
@@ -41,7 +40,7 @@ def take_robot(robot: Robot) -> tuple[Robot, list[str]]:
         return robot, []
     links = [link for link in robot.links if link.name in names]
     links[links.index(world)] = replace(world, collisions=solid)
-    return _select(robot, links), left_out
+    return select_links(robot, links), left_out
 
 
 def _take_largest_part(robot: Robot) -> tuple[Robot, list[str]]:
@@ -51,59 +50,14 @@ def _take_largest_part(robot: Robot) -> tuple[Robot, list[str]]:
     if root is None or not tops:
         return robot, []
     is_frame = not root.mass and not root.collisions
-    rest = {name for name in _list_below(robot.tree, root.name, tops) if name != root.name}
+    rest = {name for name in list_below(robot.tree, root.name, tops) if name != root.name}
     if is_frame and len(tops) == 1 and not rest:
         return robot, []  # a frame above a free base
-    parts = {top: list(_list_below(robot.tree, top, tops)) for top in (root.name, *tops)}
+    parts = {top: list(list_below(robot.tree, top, tops)) for top in (root.name, *tops)}
     if is_frame and not rest:
         del parts[root.name]
-    sizes = {top: _count(robot.tree, names) for top, names in parts.items()}
+    sizes = {top: count_parts(robot.tree, names) for top, names in parts.items()}
     chosen = max(sizes, key=lambda top: sizes[top])
     names = set(parts.pop(chosen))
     links = [link for link in robot.links if link.name in names]
-    return _select(robot, links), [f"link '{top}'" for top in parts]
-
-
-def _list_below(tree: KinematicTree, link: str, ends: Collection[str] = ()) -> Iterator[str]:
-    """Yield a link and all links below it, without ``ends`` and what is below them."""
-    todo = [link]
-    while todo:
-        name = todo.pop()
-        yield name
-        below = [joint.child for joint in tree.get_child_joints(name)]
-        todo += [child for child in below if child not in ends]
-
-
-def _measure(tree: KinematicTree, top: str) -> tuple[int, int]:
-    """Return the number of joints that move below a link, and of links."""
-    return _count(tree, list(_list_below(tree, top)))
-
-
-def _count(tree: KinematicTree, names: Collection[str]) -> tuple[int, int]:
-    """Return the number of joints that move among links, and of links."""
-    joints = [j for name in names for j in tree.get_child_joints(name) if j.child in names]
-    return sum(not joint.is_fixed for joint in joints), len(names)
-
-
-def _select(robot: Robot, links: list[Link]) -> Robot:
-    """Return the robot with some of its links, and what belongs to them."""
-    names = {link.name for link in links}
-    joints = [joint for joint in robot.joints if {joint.parent, joint.child} <= names]
-    kept = {joint.name for joint in joints}
-    return replace(
-        robot,
-        links=links,
-        joints=[
-            joint
-            if joint.mimic is None or joint.mimic.joint in kept
-            else replace(joint, mimic=None)
-            for joint in joints
-        ],
-        closures=[c for c in robot.closures if {c.parent, c.child} <= names],
-        frames=[frame for frame in robot.frames if frame.link in names],
-        joint_actuators=[a for a in robot.joint_actuators if a.joint in kept],
-        exclusions=[e for e in robot.exclusions if {e.link, e.other} <= names],
-        cameras=[camera for camera in robot.cameras if camera.link in names],
-        mounted_plugins=[p for p in robot.mounted_plugins if p.owner in {"", *names, *kept}],
-        mounted_sensors=[s for s in robot.mounted_sensors if s.joint in kept or s.link in names],
-    )
+    return select_links(robot, links), [f"link '{top}'" for top in parts]

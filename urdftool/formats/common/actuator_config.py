@@ -44,6 +44,7 @@ class JointSettings:
         friction: Dry friction of the joint [N·m or N].
         force_range: Lowest and highest force of the actuator [N·m or N].
         type: Kind of the actuator.
+        command_range: Lowest and highest command, from the description; the file has none.
     """
 
     kp: float | None = None
@@ -53,6 +54,7 @@ class JointSettings:
     friction: float | None = None
     force_range: tuple[float, float] | None = None
     type: str | None = None
+    command_range: tuple[float, float] | None = None
 
     def override(self, other: JointSettings) -> JointSettings:
         """Return these settings, with missing values taken from ``other``."""

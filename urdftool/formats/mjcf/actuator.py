@@ -114,6 +114,7 @@ def _plan_actuator(
                 made = replace(made, force_range=(-chosen.force, chosen.force))
         limits = get_bounds(joint)
         bounds = limits if limits is not None and _is_range(*limits) else None
+        bounds = settings.command_range or bounds
         ratio = 1.0 if settings.kd is None else None
         bias = (0.0, -gain, -(settings.kd or 0.0))
         return replace(made, gain=gain, bias=bias, damping_ratio=ratio, control_range=bounds)
@@ -125,7 +126,7 @@ def _plan_actuator(
             chosen = choose_velocity_gain(kind, effort, velocity, load, timestep)
             assumed[joint.name] = chosen
             gain = assumed[joint.name].value
-        bounds = (-velocity, velocity) if velocity else None
+        bounds = settings.command_range or ((-velocity, velocity) if velocity else None)
         return replace(made, gain=gain, bias=(0.0, 0.0, -gain), control_range=bounds)
     bound = effort / abs(drive.reduction) if effort else 0.0
     return replace(made, gear=drive.reduction, control_range=(-bound, bound) if bound else None)

@@ -1,30 +1,11 @@
-"""Numbers as text without floating-point noise: ``2.375e-06``, not ``2.3749999999999997e-06``.
-
-xacro expressions and rotations of inertia tensors leave such rounding errors. A number within a few
-units in the last place of one with at most ten digits is replaced by that one: a relative change
-below 2e-15.
-"""
+"""Numbers as text without floating-point noise: ``2.375e-06``, not ``2.3749999999999997e-06``."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
 from ..common import numbers
-
-DIGITS = 10
-"""Maximum number of significant digits of a number that a person wrote."""
-
-NOISE = 8
-"""Units in the last place that are attributed to rounding."""
-
-
-def round_noise(value: float) -> float:
-    """Round a number to ten significant digits if the change is within rounding noise."""
-    if not math.isfinite(value) or value == 0:
-        return value
-    short = float(f"{value:.{DIGITS}g}")
-    return short if abs(short - value) <= NOISE * math.ulp(value) else value
+from ..common.numbers import round_noise
 
 
 def number_text(value: float) -> str:

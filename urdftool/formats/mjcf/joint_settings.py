@@ -8,6 +8,7 @@ from dataclasses import replace
 from ...diagnostic import Severity
 from ...model.elements import Dynamics, Joint, Limit, Robot
 from ..common.actuator_config import JointSettings, read_actuator_config
+from ..common.described_gains import list_described_gains
 from ..written import Written
 from .inertials import LEAF_ARMATURE, get_massless_leaves
 from .joint import get_effort
@@ -32,6 +33,9 @@ def choose_joint_settings(structure: Structure, options: Options) -> dict[str, J
     found = dict.fromkeys(names, JointSettings())
     if options.actuator_config is not None:
         found = read_actuator_config(options.actuator_config).match_joints(names)
+    described = list_described_gains(structure.robot)
+    for name in found.keys() & described.keys():
+        found[name] = found[name].override(described[name])
     if options.armature is not None:
         for name, settings in found.items():
             if settings.armature is None:

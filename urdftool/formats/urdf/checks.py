@@ -75,6 +75,7 @@ def _drop_rotors(robot: Robot, written: Written) -> Robot:
 
 def _compare(robot: Robot, written: Written, path: Path) -> list[Check]:
     reading = read(path)
+    robot = written.planned or robot
     claims = Claims(written.losses, written.renamed, _EXCUSES, reading.losses)
     more = _EXTENSIONS.get(robot.format, ())
     rows = [row for row in ROWS if row.name not in EQUIPMENT_ROWS or row.name in more]

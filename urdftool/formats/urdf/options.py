@@ -34,6 +34,14 @@ class Options:
             metavar="PLUGIN",
         ),
     )
+    root: str = field(
+        default="",
+        metadata=declare(
+            "Root link of the tree to write, of a model with several.  [default: the tree with "
+            "most joints]",
+            metavar="LINK",
+        ),
+    )
     srdf: bool = True
 
     def __post_init__(self) -> None:

@@ -8,6 +8,7 @@ from lxml import etree
 
 from ...model.elements import Origin, Robot
 from ...model.pose import make_pose, rpy_from_rotation
+from ..common.numbers import round_noise
 from ..written import Written
 from .mesh_files import MeshFiles
 from .names import Names
@@ -35,9 +36,13 @@ class Translation:
     root: etree._Element = field(default_factory=lambda: etree.Element("robot"))
 
 
+TINY = 1e-15
+"""Coordinate [m] or angle [rad] of an origin that is rounding noise; chosen, no source."""
+
+
 def format_number(value: float) -> str:
-    """Return the shortest text of a number; ``-0`` is ``0``."""
-    return f"{value + 0.0!r}".removesuffix(".0")
+    """Return the shortest text of a number without floating-point noise; ``-0`` is ``0``."""
+    return f"{round_noise(value) + 0.0!r}".removesuffix(".0")
 
 
 def format_numbers(*values: float) -> str:
@@ -63,6 +68,8 @@ def add_origin(parent: etree._Element, origin: Origin | None) -> None:
     """Add ``<origin>``, unless it is the identity."""
     if origin is None:
         return
-    rpy = get_rpy(origin)
-    if any(origin.xyz) or any(rpy):
-        add(parent, "origin", xyz=format_numbers(*origin.xyz), rpy=format_numbers(*rpy))
+    xyz, rpy = (
+        [x if abs(x) > TINY else 0.0 for x in part] for part in (origin.xyz, get_rpy(origin))
+    )
+    if any(xyz) or any(rpy):
+        add(parent, "origin", xyz=format_numbers(*xyz), rpy=format_numbers(*rpy))

@@ -30,6 +30,7 @@ from .semantics import make_srdf
 from .settings import add_settings
 from .shapes import add_shape
 from .translation import Translation, add, add_origin, format_number, format_numbers
+from .trees import take_tree
 
 UNLIMITED = 1e9
 """Number that stands for no limit where URDF requires one."""
@@ -46,6 +47,9 @@ def write(robot: Robot, options: Options | None = None) -> Written:
         Refused: The robot has defects that prevent the export; the error lists them.
     """
     options = options or Options()
+    stem = replace_file_name(robot.name or "robot")
+    written = Written(options.file or f"{stem}.urdf")
+    robot = source = take_tree(robot, options.root, written)
     left = drop_invalid_parts(robot)
     converted = {joint.name for joint in robot.joints if joint.type in (*BALL_TYPES, "screw")}
     found = [
@@ -58,8 +62,6 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     meshes = MeshFiles(robot, options)
     found += report_mesh_defects(robot, meshes)
     refuse(found, force=options.force, fatal=FATAL)
-    stem = replace_file_name(robot.name or "robot")
-    written = Written(options.file or f"{stem}.urdf")
     t = Translation(robot, options, written, Names(robot, written), meshes)
     t.root.set("name", robot.name or "robot")
     for link in robot.links:
@@ -74,6 +76,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     add_sensors(t)
     _report_unexpressed(t)
     report_passed_defects(written, found)
+    written.planned = source
     written.files[written.main] = _format_file(t, t.root)
     semantics = make_srdf(t)
     if semantics is not None:

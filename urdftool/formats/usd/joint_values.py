@@ -12,6 +12,7 @@ from ...model.drives import list_servo_joints
 from ...model.elements import Joint
 from ...model.mechanism import JointActuator
 from ..common.actuator_config import JointSettings, read_actuator_config
+from ..common.described_gains import list_described_gains
 from ..written import Written
 from .bodies import Bodies
 
@@ -56,9 +57,13 @@ def read_joint_settings(bodies: Bodies, config: Path | None) -> dict[str, JointS
         ConfigError: The file is not valid, or has settings for a joint that does not move.
     """
     names = [joint.name for joint in list_single_joints(bodies)]
-    if config is None:
-        return dict.fromkeys(names, JointSettings())
-    return read_actuator_config(config).match_joints(names)
+    found = dict.fromkeys(names, JointSettings())
+    if config is not None:
+        found = read_actuator_config(config).match_joints(names)
+    described = list_described_gains(bodies.robot)
+    for name in found.keys() & described.keys():
+        found[name] = found[name].override(described[name])
+    return found
 
 
 def choose_joint_values(
