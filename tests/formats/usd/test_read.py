@@ -134,6 +134,30 @@ def test_a_disabled_joint_to_the_world_holds_no_base(read, enabled):
 
 
 @pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('FixedJoint "root_joint"', 'FixedJoint "root_joint" (active = false)'),
+        ("rel physics:body1 = </r/a>", "bool physics:jointEnabled = 0\nrel physics:body1 = </r/a>"),
+    ],
+)
+def test_a_stored_link_world_does_not_hold_a_base(tmp_path, old, new):
+    body_ = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r"><link name="world"/><link name="a">{body_}</inertial></link>'
+        '<joint name="w" type="fixed"><parent link="world"/><child link="a"/></joint></robot>'
+    )
+    urdftool.export_usd(urdftool.load(tmp_path / "r.urdf"), tmp_path / "r.usda")
+    text = (tmp_path / "r.usda").read_text()
+    assert old in text
+    (tmp_path / "r.usda").write_text(text.replace(old, new))
+    robot = urdftool.load(tmp_path / "r.usda")
+    assert robot.base.is_free
+    assert [link.name for link in robot.links] == ["a"]
+    verified = urdftool.verify(tmp_path / "r.urdf", robot)
+    assert not verified.is_equal
+
+
+@pytest.mark.parametrize(
     ("at", "kind", "is_apart"),
     [
         ("(0, 0, 0)", "Revolute", False),

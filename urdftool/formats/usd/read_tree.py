@@ -110,6 +110,7 @@ def add_tree(context: Context, robot: Robot) -> None:
     _join_frames(context, robot, frames, taken)
     _join_free_bodies(context, robot, root, frames, taken)
     _add_base(context, robot, root, frames)
+    _drop_world(context, robot, frames)
     for path, shift in context.shifts.items():
         if path and compute_norm(shift.translation) > 0:
             written, name = context.get_written(context.bodies[path]), context.names[path]
@@ -406,6 +407,20 @@ def _add_base(
     if context.is_y_up:
         turn = Pose(((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)))
     robot.base = Base(written, not held, get_origin_at(turn @ pose, written))
+
+
+def _drop_world(context: Context, robot: Robot, frames: dict[str, tuple[str, Pose]]) -> None:
+    """Remove a stored link ``world`` to which no active joint of the stage holds the base."""
+    joints = [joint for joint in robot.joints if joint.parent == WORLD]
+    path = next((path for path in frames if context.names[path] == WORLD), None)
+    if robot.base is None or not robot.base.is_free or path is None:
+        return
+    prim = context.stage.GetPrimAtPath(path)
+    if [joint.type for joint in joints] != ["fixed"] or prim.GetChildren():
+        return
+    context.report_loss("world", "no active joint holds the base at the world: it is free", prim)
+    robot.links = [link for link in robot.links if link.name != WORLD]
+    robot.joints.remove(joints[0])
 
 
 def _is_anchor(context: Context, prim: Usd.Prim) -> bool:
