@@ -46,7 +46,7 @@ class AnswerStream:
         return len(data)
 
     def flush(self) -> None:
-        """Return at once; the thread writes."""
+        """Return immediately; the thread writes."""
 
     def close(self) -> None:
         """Wait until all is written, for a limited time."""
@@ -74,7 +74,7 @@ def _write_all(descriptor: int, data: bytes) -> None:
 
 
 def end_process(reason: str) -> None:
-    """End this process at once; its children end with it."""
+    """End this process immediately; its children end with it."""
     if reason:
         sys.stderr.write(f"urdftool server: {reason}\n")
     os._exit(1 if reason else 0)

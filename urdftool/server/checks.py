@@ -90,7 +90,7 @@ class Checks:
         return replace(options, expand=not parts_only)
 
     def _check_large(self, robot: str) -> None:
-        """Check only whether a large file is well-formed, and say so."""
+        """Check only whether a large file is well-formed; a remark reports that."""
         try:
             parse(self.knowledge.read(robot))
             shown = make_remark(robot, f"larger than {MOST_BYTES >> 20} MiB: {_NOT_CHECKED}")

@@ -133,8 +133,8 @@ class Expansion:
             self._tree = _make_tree(self.nodes)
         return self._tree
 
-    @tree.setter
-    def tree(self, tree: XacroDocument) -> None:
+    def set_tree(self, tree: XacroDocument) -> None:
+        """Set the tree that is expanded."""
         self._tree = tree
 
 

@@ -66,7 +66,7 @@ class ExpansionFiles:
             "message": self.add_message,
         }
 
-    def remember(self, key: Hashable, make: Callable[[], T]) -> T:
+    def get_kept(self, key: Hashable, make: Callable[[], T]) -> T:
         """Return a value that the workspace keeps for the next expansion."""
         return self._packages.files.memoize(key, lambda _: make())
 

@@ -39,7 +39,7 @@ class Prepared:
     """
 
     def __init__(self) -> None:
-        """Prepare nothing."""
+        """Create an object without answers and expressions."""
         self.answers: dict[Words, Any] = {}
         self.codes: dict[str, Expression] = {}
 
@@ -48,16 +48,16 @@ class LastExpansion:
     """Requests and expressions of the last expansion of a description with its arguments."""
 
     def __init__(self) -> None:
-        """Remember nothing."""
+        """Create a memory without requests and expressions."""
         self._requests: dict[Words, None] = {}
         self._codes: dict[str, Expression | None] = {}
 
     def prepare(self, files: ExpansionFiles) -> Prepared:
-        """Answer the requests, read and parse the included files, and compile expressions."""
+        """Find the answers, read and parse the included files, and compile expressions."""
         prepared = Prepared()
         for words in self._requests:
             with suppress(UrdftoolError, OSError, ValueError):
-                prepared.answers[words] = _answer(files, words)
+                prepared.answers[words] = _find_answer(files, words)
         self._compile(trusted=files.trusted)
         prepared.codes = {text: code for text, code in self._codes.items() if code is not None}
         return prepared
@@ -71,13 +71,13 @@ class LastExpansion:
                 del self._codes[text]
 
     def add_request(self, name: str, arguments: Iterable[str]) -> None:
-        """Remember a request that was answered."""
+        """Store a request that was answered."""
         words = name, *arguments
         if name in ANSWERED and len(self._requests) < _MAX_REQUESTS:
             self._requests[words] = None
 
     def finish(self, prepared: Prepared, used: Any, texts: Any) -> None:
-        """Forget the answers that an expansion did not use, and remember its expressions.
+        """Remove the answers that an expansion did not use, and store its expressions.
 
         Args:
             prepared: What the expansion had.
@@ -96,7 +96,7 @@ class LastExpansion:
                 self._codes.setdefault(text, None)
 
 
-def _answer(files: ExpansionFiles, words: Words) -> Any:
+def _find_answer(files: ExpansionFiles, words: Words) -> Any:
     name, *arguments = words
     if name != "include":
         return files.requests[name](*arguments)
@@ -111,4 +111,4 @@ def get_last_expansion(
 ) -> LastExpansion:
     """Return what is remembered of a description with its arguments, in its workspace."""
     key = LastExpansion, file.path, files.trusted, *sorted(arguments.items())
-    return files.remember(key, LastExpansion)
+    return files.get_kept(key, LastExpansion)

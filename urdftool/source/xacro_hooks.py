@@ -122,8 +122,9 @@ class Run:
         try:
             with self.patience.enforce():
                 xacro.init_stacks(self.result.file.path)
-                self.result.tree = parse_xacro(self.result.file)
-                xacro.process_doc(self.result.tree, mappings=dict(self.result.given), verbosity=1)
+                tree = parse_xacro(self.result.file)
+                self.result.set_tree(tree)
+                xacro.process_doc(tree, mappings=dict(self.result.given), verbosity=1)
         except UrdftoolError as error:
             if error.line is not None or self.node is None:
                 raise
