@@ -105,6 +105,10 @@ NAMES: tuple[tuple[str, str, str], ...] = (
     (r"inertia/solids\.py", r"[a-z_]+", "named by the solid; public"),
     (r"docs/conf\.py", r"setup", "named by Sphinx"),
     (r"rules/fix\.py", r"safe|unsafe", "make a proposal that is safe or unsafe"),
-    (r"(?:terminal|console|answer_stream)\.py", r"isatty|fileno|flush|writable|readable", "named by io"),
+    (
+        r"(?:terminal|console|answer_stream)\.py",
+        r"isatty|fileno|flush|writable|readable",
+        "named by io",
+    ),
 )
 """Functions whose names others decide: a pattern of paths, one of names, and the reason."""

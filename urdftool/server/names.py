@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ..errors import UrdftoolError
 from ..model.elements import Joint, Link, Robot
@@ -13,6 +13,7 @@ from ..source.document import Element
 from ..source.expand import expand_xacro
 from ..source.location import SourceFile
 from ..source.packages import Packages
+from .around import get_table, is_around, list_files_around, list_robots_around
 from .knowledge import Knowledge, make_path
 from .scopes import Scopes
 from .words import XACRO, Word, WordTable
@@ -52,11 +53,12 @@ class Names:
         """Index the names of the robots that a file belongs to."""
         self.knowledge, self._path = knowledge, make_path(path)
         self.tables: dict[str, WordTable] = {}
-        for one in knowledge.list_connected(path):
-            table = knowledge.get_words(one)
-            if table is not None:
-                self.tables[one] = table
+        self._add_tables(knowledge.list_connected(path))
         self.descriptions = knowledge.list_descriptions(path)
+        if not self.descriptions and is_around(path):
+            self.descriptions = list_robots_around(knowledge, path)
+            for description, _ in self.descriptions:
+                self._add_tables(make_path(file.path) for file in description.files)
         self.scopes = Scopes(self.tables.values())
         self._recorded: dict[tuple[str, int, str, str], dict[_Site, None]] = {}
         self._macros: dict[_Site, dict[_Site, None]] = {}
@@ -67,6 +69,19 @@ class Names:
             self._add_recorded(description)
 
     # Robots --------------------------------------------------------------------------------
+
+    def _add_tables(self, paths: Iterable[str]) -> None:
+        """Index the names of files, by resolved path."""
+        for path in paths:
+            table = self.tables.get(path) or get_table(self.knowledge, path)
+            if table is not None:
+                self.tables[path] = table
+
+    def add_files_around(self) -> None:
+        """Index the names in the SRDF and YAML files of the robots too."""
+        for description, robot in self.descriptions:
+            if robot.format == "urdf":
+                self._add_tables(list_files_around(self.knowledge, description, robot))
 
     def _is_present(self, file: SourceFile) -> bool:
         """Tell whether a file that was read is as it is now."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..errors import UrdftoolError
+from .around import get_table, is_around
 from .knowledge import Knowledge, make_path
 from .names import Names, get_names
 from .words import Word
@@ -15,7 +16,7 @@ Location = dict[str, Any]
 
 def find_word(knowledge: Knowledge, params: dict[str, Any]) -> Word | None:
     """Return the name at the position of a question; None if there is none."""
-    table = knowledge.get_words(params["path"])
+    table = get_table(knowledge, params["path"])
     return None if table is None else table.find(knowledge.get_offset(params))
 
 
@@ -37,7 +38,12 @@ def list_references(knowledge: Knowledge, params: dict[str, Any]) -> list[Locati
     word = find_word(knowledge, params)
     if word is None:
         return []
-    found = get_names(knowledge, params["path"]).find_references(word)
+    names = get_names(knowledge, params["path"])
+    if word.kind in ("link", "joint", "part"):
+        names.add_files_around()
+    if is_around(params["path"]) and not names.find_definitions(word):
+        return []  # another word of the file
+    found = names.find_references(word)
     declared = params.get("declaration", True)
     return [locate(knowledge, one) for one in found if declared or not one.is_definition]
 

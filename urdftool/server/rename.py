@@ -13,6 +13,7 @@ from typing import Any
 from ..errors import UrdftoolError
 from ..source.location import Place
 from ..source.safe_builtins import MATH, PYTHON
+from .around import YAML
 from .knowledge import Knowledge, make_path
 from .names import Names, get_names
 from .navigation import find_word
@@ -66,7 +67,7 @@ def _make_edits(knowledge: Knowledge, params: dict[str, Any]) -> SourceEdits:
     word, new = find_word(knowledge, params), params["name"]
     if word is None or word.kind in ("file", "package"):
         raise RefusedRename("there is no name that can be changed")
-    if knowledge.parse(params["path"]) is None:
+    if not params["path"].endswith(YAML) and knowledge.parse(params["path"]) is None:
         raise RefusedRename("the document is not well-formed; correct it first")
     _check_new_name(word, new)
     names = get_names(knowledge, params["path"])

@@ -148,10 +148,20 @@ class _Renaming:
         for file in draft.around:
             edits = file.list_edits()
             if edits and self.edits.knowledge.read(file.file.path).data != file.file.data:
-                message = f"{file.file.path} has this name, and is xacro; change it there first"
-                raise RefusedRename(message)
+                raise self._refuse_xacro(file.file.path, new)
             for edit in edits:
                 self.edits.add(file.file, edit)
+
+    def _refuse_xacro(self, path: str, new: NewNames) -> RefusedRename:
+        """Return the refusal for an SRDF of xacro, with the place of the name in its source."""
+        table = self.edits.knowledge.get_words(path)
+        for word in table.words if table is not None else ():
+            if word.name in new.every and word.kind in ("link", "joint", "part"):
+                at = Place(word.element.file, word.start, word.end)
+                message = "an SRDF of xacro has this name; change it there first"
+                return RefusedRename(message, at=at)
+        message = f"{path} makes this name by xacro; change it there first"
+        return RefusedRename(message)
 
     def _add(self, change: NameChange) -> None:
         element, attribute, name = change
