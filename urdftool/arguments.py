@@ -75,7 +75,9 @@ def require_kind(name: str, value: object, annotation: str) -> None:
     if any(_KINDS[word][0](value) for word in words):
         return
     allowed = [_KINDS[word][1] for word in words if word != "None"]
-    raise ConfigError(f"{name} is {reprlib.repr(value)}, which is not {' or '.join(allowed)}")
+    text = f"{name} is {reprlib.repr(value)}, which is not {' or '.join(allowed)}"
+    is_one = isinstance(value, str) and "a list" in allowed
+    raise ConfigError(f"{text}; pass [{reprlib.repr(value)}]" if is_one else text)
 
 
 def _split(annotation: str) -> list[str]:

@@ -55,7 +55,9 @@ class Difference:
 
     @property
     def title(self) -> str:
-        """Return kind, name and property."""
+        """Return kind, name and property; the property of the whole robot alone."""
+        if self.kind == "robot" and not self.name:
+            return self.what
         return f"{name_part(self.kind, self.name)}: {self.what}"
 
 

@@ -155,14 +155,6 @@ def measure(x: float, y: float) -> float:
     return abs(x - y) / max(1.0, abs(x), abs(y))
 
 
-_FORMATS_OF = {
-    "damping": ("urdf", "sdf", "mjcf", "usd"),
-    "friction": ("urdf", "sdf", "mjcf", "usd"),
-    "armature": ("urdf", "sdf", "mjcf", "usd"),
-}
-"""Formats that have each property of the dynamics; a rotor that a format lacks has no inertia."""
-
-
 def _compare_dynamics(pair: Pair, match: JointMatch, comparison: Comparison) -> None:
     parts = match.one.dynamics, match.two.dynamics
     slides = match.one.type == "prismatic"
@@ -173,10 +165,6 @@ def _compare_dynamics(pair: Pair, match: JointMatch, comparison: Comparison) -> 
     }
     for name, unit in units.items():
         x, y = (0.0 if part is None else getattr(part, name) or 0.0 for part in parts)
-        if not all(format_ in _FORMATS_OF[name] for format_ in pair.formats):
-            if x or y:
-                comparison.record_not_comparable(f"{name}: not in every format")
-            continue
         _add(comparison, match, "joint physics", name, (x, y), unit, measure(x, y), "", parts)
 
 

@@ -239,7 +239,7 @@ def _list_elements(robot: Robot) -> Iterator[Evidence]:
             said = "<hardwareInterface> of ros_control in a joint"
             yield _make_evidence("ros1", "an element", transmission.element, said)
             break
-    element = robot.element.find_child("mujoco")
+    element = None if robot.xml is None else robot.xml.find_child("mujoco")
     if element is not None:
         yield _make_evidence("mujoco", "an element", element, "<mujoco>")
 
