@@ -7,11 +7,8 @@ from collections.abc import Iterable
 
 from ..mechanics import spatial_inertia
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import format_moments_text, measure_consistency
+from ..mechanics.tensor import ROUNDING, format_moments_text, measure_consistency
 from .inertia_error import InertiaError
-
-ROUNDING = 1e-9
-"""Largest excess of a tensor, relative to its size, that rounding explains."""
 
 
 def is_consistent(properties: SpatialInertia, *, tolerance: float = ROUNDING) -> bool:

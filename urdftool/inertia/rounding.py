@@ -13,8 +13,8 @@ import math
 from collections.abc import Iterable, Sequence
 
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import SymmetricTensor, as_tensor, measure_consistency, trace_of
-from .requirements import ROUNDING, require_consistent
+from ..mechanics.tensor import ROUNDING, SymmetricTensor, as_tensor, measure_consistency, trace_of
+from .requirements import require_consistent
 
 DIGITS = 12
 """Number of significant digits."""

@@ -30,6 +30,15 @@ ZERO_TENSOR: SymmetricTensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 MIN_GYRATION_RADIUS = 1e-5
 """Smallest meaningful radius of gyration [m]; moments below it are rounding noise."""
 
+ROUNDING = 1e-9
+"""Excess of a tensor, relative to its size, up to which it counts as consistent. Chosen, no source:
+above the rounding of computed moments, below that of written numbers. All exports and
+``urdftool inertia`` use it."""
+
+WRITTEN_ROUNDING = 0.01
+"""Excess that rounding of written numbers explains: exports lift such a tensor, and report it.
+Chosen, no source."""
+
 _CLOSE = 1e-6
 _SMALL = 1e-60
 
@@ -72,6 +81,16 @@ def measure_consistency(tensor: SymmetricTensor, *, least_size: float = 0.0) -> 
 def get_noise(mass: float) -> float:
     """Return the moment [kg·m²] below which moments of a body of this mass [kg] are noise."""
     return abs(mass) * MIN_GYRATION_RADIUS**2
+
+
+def get_excess(tensor: SymmetricTensor, mass: float) -> float:
+    """Return the excess of a body's tensor, relative to a size that discounts noise.
+
+    Args:
+        tensor: Inertia about the center of mass [kg·m²].
+        mass: Mass [kg].
+    """
+    return measure_consistency(tensor, least_size=get_noise(mass)).excess
 
 
 @lru_cache(maxsize=4096)

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from ...mechanics.repair import find_nearest_consistent
 from ...mechanics.tensor import (
+    ROUNDING,
     ZERO_TENSOR,
     SymmetricTensor,
     compute_principal_axes,
@@ -22,9 +23,6 @@ from ...mechanics.tensor import (
 from ...model.elements import Vector
 
 Array = npt.NDArray[np.float64]
-
-ROUNDING = 1e-9
-"""Relative violation that rounding explains; it is corrected without a report."""
 
 _SAFE = 1e-12
 _LIFT = 2e-12

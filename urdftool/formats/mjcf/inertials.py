@@ -16,17 +16,17 @@ from ...geometry.link_extent import compute_box_size
 from ...mechanics.repair import compute_box_tensor
 from ...mechanics.spatial_inertia import SpatialInertia, combine
 from ...mechanics.tensor import (
-    ZERO_TENSOR,
+    WRITTEN_ROUNDING,
     SymmetricTensor,
     add_tensors,
     format_moments_text,
+    get_excess,
     make_diagonal_tensor,
-    rotate_tensor,
-    scale_tensor,
 )
 from ...model.elements import ZERO
-from ...model.pose import IDENTITY, transpose
+from ...model.pose import IDENTITY
 from ..common.inertia_repair import repair_tensor
+from ..common.inertia_surplus import move_surplus, report_move
 from ..common.option import FixInertia
 from ..defects import make_defect
 from ..written import Written
@@ -99,29 +99,13 @@ def _compose(
     structure: Structure, top: str, group: dict[str, LinkInertia], bad: list[str], written: Written
 ) -> bool:
     """Repair tensors exactly inside a rigid body; return whether all of them are repaired."""
-    for name in bad:
-        source = group[name]
-        turn = structure.get_pose_in_group(name).rotation
-        kept = tensors.lift(source.tensor) if source.mass > 0 else ZERO_TENSOR
-        surplus = rotate_tensor(add_tensors(source.tensor, scale_tensor(kept, -1.0)), turn)
-        for other in sorted(set(group) - {name}, key=lambda n: (n != top, -group[n].mass, n)):
-            taker = group[other]
-            back = transpose(structure.get_pose_in_group(other).rotation)
-            tensor = add_tensors(taker.tensor, rotate_tensor(surplus, back))
-            if taker.mass > 0 and taker.is_possible and tensors.is_possible(tensor):
-                group[other] = taker.get_changed(tensor)
-                group[name] = source.get_changed(kept)
-                written.report_loss(
-                    "inertia-moved",
-                    f"inertia of link '{name}' is physically inconsistent (principal moments "
-                    f"{format_moments_text(source.tensor)} kg·m²); the excess is "
-                    f"moved to link '{other}', which is welded to it; the total is unchanged",
-                    source.place,
-                    kind="link",
-                    name=name,
-                    severity=Severity.INFO,
-                )
-                break
+    bodies = {name: read.body for name, read in group.items()}
+    rotations = {name: structure.get_pose_in_group(name).rotation for name in group}
+    places = {name: group[name].place for name in bad}
+    for move in move_surplus(bodies, rotations, bad, top, tensors.lift):
+        for name in (move.taker, move.link):
+            group[name] = group[name].get_changed(bodies[name].tensor)
+        report_move(written, move, places[move.link])
     if all(group[name].is_possible for name in bad):
         return True
     return _unite(structure, top, group, bad, written)
@@ -170,7 +154,8 @@ def _repair(
     before = format_moments_text(read.tensor)
     static = structure.is_static(name)
     is_tensor_possible = tensors.is_possible(read.tensor)
-    if fix == "none" and not (static or force):
+    is_rounded = read.mass > 0 and get_excess(read.tensor, read.mass) <= WRITTEN_ROUNDING
+    if fix == "none" and not (static or force or is_rounded):
         reason = "none may be negative or above the sum of the other two"
         yield make_defect(
             "inertia-triangle-inequality",

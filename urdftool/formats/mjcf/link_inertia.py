@@ -8,10 +8,12 @@ from lxml import etree
 
 from ...mechanics.spatial_inertia import SpatialInertia
 from ...mechanics.tensor import (
+    ROUNDING,
     ZERO_TENSOR,
     SymmetricTensor,
     compute_principal_moments,
     get_diagonal,
+    get_excess,
     get_written_tensor,
 )
 from ...model.elements import ZERO, Link, Origin, Vector
@@ -59,7 +61,9 @@ class LinkInertia:
     @property
     def is_possible(self) -> bool:
         """Tell whether mass and tensor are physically consistent."""
-        return tensors.is_possible(self.tensor) and (self.mass > 0 or not any(self.tensor))
+        if self.mass > 0:
+            return get_excess(self.tensor, self.mass) <= ROUNDING
+        return not any(self.tensor)
 
     def is_heavy(self, least: float) -> bool:
         """Tell whether mass and every principal moment exceed a bound."""

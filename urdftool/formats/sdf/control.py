@@ -15,18 +15,19 @@ HARDWARE = {
 
 def keep_control(model: Node, t: Translation) -> None:
     """Keep transmissions and ros2_control as comments, and report them."""
+    if t.options.classic:
+        use = "ros_control reads it from robot_description"
+    elif t.robot.ros2_controls:
+        use = "gz drives its joints by the <ros2_control> block of robot_description"
+    else:
+        use = "gz requires a <ros2_control> block in robot_description instead"
     for transmission in t.robot.transmissions:
         append_comment(model, _format_comment(transmission))
         joints = ", ".join(f"'{joint.name}'" for joint in transmission.joints) or "no joint"
         t.report_loss(
             "transmission",
             f"transmission '{transmission.name}' of {joints} has no counterpart; it stays as a "
-            "comment, and "
-            + (
-                "ros_control reads it from robot_description"
-                if t.options.classic
-                else "gz requires a <ros2_control> block in robot_description instead"
-            ),
+            f"comment, and {use}",
             transmission,
         )
     for system in t.robot.ros2_controls:

@@ -8,8 +8,11 @@ from ...diagnostic import Severity
 from ...mechanics.repair import find_nearest_consistent
 from ...mechanics.tensor import (
     COMPONENTS,
+    ROUNDING,
+    WRITTEN_ROUNDING,
     SymmetricTensor,
     format_moments_text,
+    get_excess,
     get_written_tensor,
     make_diagonal_tensor,
     measure_consistency,
@@ -18,7 +21,6 @@ from ...model.elements import Link, Part, Vector
 from ...model.pose import Pose
 from ..common.inertia_repair import repair_tensor
 from ..common.numbers import number_text
-from .plan import EXACT, ROUNDING, get_excess
 from .pose import set_origin, set_pose
 from .translation import Translation
 from .xml import Node, add
@@ -40,16 +42,16 @@ def add_inertial(node: Node, t: Translation, link: Link) -> None:
     alone = link.name in t.plan.alone
     own = link.inertial
     about: Part = own or link
-    short = get_excess(mass)
+    short = get_excess(mass.tensor, mass.mass)
     node = add(node, "inertial")
-    if alone and own is not None and short <= ROUNDING:
+    if alone and own is not None and short <= WRITTEN_ROUNDING:
         set_origin(node, own.origin, exact=t.options.is_at_least("1.9"))
         tensor = get_written_tensor(own.inertia)
     else:
         set_pose(node, Pose(translation=mass.com))
         tensor = mass.tensor
     add(node, "mass", number_text(mass.mass))
-    if short > ROUNDING:
+    if short > WRITTEN_ROUNDING:
         tensor, how = repair_inertia(t, link.name)
         t.report_loss(
             "inertia",
@@ -59,7 +61,7 @@ def add_inertial(node: Node, t: Translation, link: Link) -> None:
             about,
             link,
         )
-    elif short > EXACT:
+    elif short > ROUNDING:
         t.report_loss(
             "inertia",
             f"inertia of link '{link.name}' is inconsistent only by rounding (the largest moment "
@@ -90,7 +92,7 @@ def _add_weightless(node: Node, t: Translation, link: Link, tensor: SymmetricTen
     node = add(node, "inertial")
     add(node, "mass", number_text(WEIGHTLESS))
     tiny = WEIGHTLESS * 1e-6
-    if not any(tensor) or measure_consistency(tensor).excess > EXACT:
+    if not any(tensor) or measure_consistency(tensor).excess > ROUNDING:
         tensor = make_diagonal_tensor(tiny, tiny, tiny)
     _add_tensor(node, tensor)
     below = any(t.robot.link[name].mass > 0 for name in t.robot.tree.list_descendants(link.name))

@@ -11,18 +11,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ...mechanics.spatial_inertia import SpatialInertia, combine, link_inertia
-from ...mechanics.tensor import get_noise, measure_consistency
+from ...mechanics.tensor import ROUNDING, get_excess
 from ...model.block_elements import list_part_elements
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose
 from ..common.lumping import LumpingPlan, plan_lumping
-
-EXACT = 1e-9
-"""Relative violation of the triangle inequality up to which moments are written unchanged."""
-
-ROUNDING = 0.01
-"""Relative violation that rounding of written numbers explains; the moments are corrected."""
 
 WORLD = "world"
 
@@ -106,14 +100,9 @@ def _senses_force(robot: Robot, joint: Joint) -> bool:
     )
 
 
-def get_excess(mass: SpatialInertia) -> float:
-    """Return the inconsistency of a body's tensor, relative to a size that discounts noise."""
-    return measure_consistency(mass.tensor, least_size=get_noise(mass.mass)).excess
-
-
 def _is_physical(mass: SpatialInertia) -> bool:
     """Tell whether a link with these mass properties can be a link of its own."""
-    return mass.mass > 0 and get_excess(mass) <= EXACT
+    return mass.mass > 0 and get_excess(mass.tensor, mass.mass) <= ROUNDING
 
 
 def _dissolve_groups(

@@ -11,6 +11,7 @@ from lxml import etree
 from ...finding import Finding
 from ...lint.validate import validate
 from ...mechanics.spatial_inertia import link_inertia
+from ...mechanics.tensor import WRITTEN_ROUNDING, get_excess
 from ...model.elements import Link, Mesh, Robot
 from ...model.world import WORLD
 from ..common.directory import mark
@@ -31,7 +32,7 @@ from .model import add_model
 from .names import get_model_name, make_names
 from .native import report_uncopied
 from .options import MODEL, Options
-from .plan import ROUNDING, Plan, get_excess, make_plan
+from .plan import Plan, make_plan
 from .translation import Translation
 from .world import add_world
 from .xml import Node, add, serialize_document
@@ -162,8 +163,8 @@ def report_mesh_defects(robot: Robot, meshes: MeshFiles) -> Iterator[Finding]:
 def report_inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
     """Report bodies whose inertia is physically inconsistent, with all that is lumped into them."""
     for owner, mass in plan.mass.items():
-        short = get_excess(mass)
-        if mass.mass <= 0 or short <= ROUNDING:
+        short = get_excess(mass.tensor, mass.mass)
+        if mass.mass <= 0 or short <= WRITTEN_ROUNDING:
             continue
         members = [robot.link[name] for name in plan.members[owner]]
         worst = max(members, key=_compute_own_shortfall)
@@ -180,4 +181,5 @@ def report_inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
 
 
 def _compute_own_shortfall(link: Link) -> float:
-    return get_excess(link_inertia(link))
+    body = link_inertia(link)
+    return get_excess(body.tensor, body.mass)

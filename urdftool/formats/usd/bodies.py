@@ -73,6 +73,17 @@ class Bodies:
         found = link_poses(self.robot)
         return {name: self.root_pose @ pose for name, pose in found.items()}
 
+    def find_rigid_groups(self) -> dict[str, list[str]]:
+        """Return the names of the bodies that move together, by the topmost one."""
+        top: dict[str, str] = {}
+        groups: dict[str, list[str]] = {}
+        for link in self.links:
+            joint = self.robot.tree.get_parent_joint(link.name)
+            parent = "" if joint is None or is_movable(joint) else self.carrier[joint.parent]
+            top[link.name] = top.get(parent, link.name)
+            groups.setdefault(top[link.name], []).append(link.name)
+        return groups
+
     def compute_parent_frame(self, joint: Joint) -> Pose:
         """Return the pose of the joint's child at zero, in the frame of the joint's first body."""
         at = self.pose[joint.parent] @ make_pose(joint.origin)

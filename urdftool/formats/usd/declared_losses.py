@@ -8,7 +8,8 @@ MASS = ("lossy-massless-body", "lossy-inertia-without-mass")
 """A moving body without mass got one, or the tensor of a link without mass was dropped."""
 
 INERTIA = (
-    *MASS, "lossy-inertia", "lossy-inertia-raised", "inertia-triangle-inequality",
+    *MASS, "lossy-inertia", "lossy-inertia-raised", "lossy-inertia-moved",
+    "inertia-triangle-inequality",
 )  # fmt: skip
 """A tensor was changed."""
 

@@ -17,17 +17,20 @@ from ...geometry.link_extent import compute_box_size
 from ...mechanics.repair import find_nearest_consistent
 from ...mechanics.spatial_inertia import SpatialInertia, link_inertia
 from ...mechanics.tensor import (
+    ROUNDING,
+    WRITTEN_ROUNDING,
     SymmetricTensor,
     compute_principal_axes,
     format_moments_text,
     from_matrix,
     get_diagonal,
+    get_excess,
     make_diagonal_tensor,
-    measure_consistency,
 )
 from ...model.elements import ZERO, Link
 from ...model.pose import IDENTITY
 from ..common.inertia_repair import repair_tensor
+from ..common.inertia_surplus import is_consistent, move_surplus, report_move
 from ..defects import make_defect
 from ..written import Written
 from .bodies import Bodies, has_mass
@@ -40,9 +43,6 @@ TINY_MASS = 1e-6
 
 TINY_MOMENT = 1e-9
 """Principal moments [kg·m²] of a moving body without mass. Chosen, no source."""
-
-ROUNDING = 1e-9
-"""Relative violation of the triangle inequality that rounding explains."""
 
 _FLOOR, _RELATIVE_FLOOR = 1.1e-10, 1.1e-6
 """Smallest principal moment [kg·m²], and relative to the largest; Newton's limits plus 10 %."""
@@ -75,9 +75,10 @@ def make_inertias(
     """Compute the mass properties of every body, and the defects that prevent an export."""
     found: dict[str, BodyInertia] = {}
     wrong: list[Finding] = []
+    read = _read(bodies, written)
     for link in bodies.links:
         if has_mass(link):
-            body, defects = _repair(bodies, link, options, written)
+            body, defects = _repair(bodies, link, read[link.name], options, written)
             wrong += defects
         else:
             body = _give_mass(bodies, link, written)
@@ -92,6 +93,19 @@ def make_inertias(
                 name=link.name,
             )
     return found, wrong
+
+
+def _read(bodies: Bodies, written: Written) -> dict[str, SpatialInertia]:
+    """Return the mass properties of bodies; surpluses moved inside of rigid bodies."""
+    read = {link.name: link_inertia(link) for link in bodies.links if has_mass(link)}
+    for top, members in bodies.find_rigid_groups().items():
+        group = {name: read[name] for name in members if name in read}
+        wrong = [name for name, body in group.items() if not is_consistent(body)]
+        rotations = {name: bodies.poses[name].rotation for name in group}
+        for move in move_surplus(group, rotations, wrong, top, find_nearest_consistent):
+            report_move(written, move, bodies.robot.link[move.link].place)
+        read |= group
+    return read
 
 
 def _give_mass(bodies: Bodies, link: Link, written: Written) -> SpatialInertia:
@@ -109,16 +123,16 @@ def _give_mass(bodies: Bodies, link: Link, written: Written) -> SpatialInertia:
 
 
 def _repair(
-    bodies: Bodies, link: Link, options: Options, written: Written
+    bodies: Bodies, link: Link, body: SpatialInertia, options: Options, written: Written
 ) -> tuple[SpatialInertia, list[Finding]]:
     """Return a link's mass properties, repaired if physically inconsistent, and the defects."""
-    body = link_inertia(link)
-    if measure_consistency(body.tensor).excess <= ROUNDING:
+    excess = get_excess(body.tensor, body.mass)
+    if excess <= ROUNDING:
         return body, []
     static = not bodies.free and link.name == bodies.base
     before = f"principal moments {format_moments_text(body.tensor)} kg·m²"
     defects = []
-    if options.fix_inertia == "none" and not static:
+    if options.fix_inertia == "none" and not static and excess > WRITTEN_ROUNDING:
         text = (
             f"inertia of link '{link.name}' is physically inconsistent: {before} (none may be "
             "negative or above the sum of the other two), and Newton replaces it. Correct it, or "
