@@ -101,6 +101,22 @@ def test_a_joint_that_takes_a_displacement_back(tmp_path, roll, count):
     assert len(found) == count
 
 
+@pytest.mark.parametrize(("shift", "count"), [(0.03, 0), (0.0, 1)])
+def test_centers_that_mirror_each_other_in_the_root_frame(tmp_path, shift, count):
+    """The frames of the right side are displaced along the joint, and so is the center of mass."""
+    parts = [LINK.format("base", "")]
+    for side, sign in (("left", 1), ("right", -1)):
+        moved = 0.03 if side == "right" else 0.0
+        back = shift if side == "right" else 0.0
+        inertial = BODY.format(mass=1, moment=0.01)
+        at = f'<inertial><origin xyz="0 {sign * (0.05 + moved)} 0"/>'
+        parts.append(LINK.format(f"{side}_arm", inertial.replace("<inertial>", at)))
+        origin = f'<origin xyz="0 {sign * (0.2 - back)} 0"/>'
+        joint = JOINT.format(f"{side}_j", "continuous", "base", f"{side}_arm", origin)
+        parts.append(joint.replace("0 0 1", "0 1 0"))
+    assert len(find(tmp_path, "left-right-asymmetry", *parts)) == count
+
+
 STL = (
     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
     "endfacet\nendsolid a\n"

@@ -88,7 +88,8 @@ def left_right_asymmetry(
             )
             continue
         here, there = _compute_com_distance(link), _compute_com_distance(other)
-        if _is_different(here, there, com_difference) and abs(here - there) > least_distance:
+        is_far = _is_different(here, there, com_difference) and abs(here - there) > least_distance
+        if is_far and not _are_mirrored_in_root(get_sides(robot), link, other):
             yield Problem(
                 other,
                 f"center of mass of link '{other.name}' is {there:.3g} m from its frame, but that "
@@ -109,6 +110,30 @@ def left_right_asymmetry(
                 data={"twin": link.name},
                 effects=_select_readers(link, other),
             )
+
+
+def _are_mirrored_in_root(sides: Sides, link: Link, other: Link) -> bool:
+    """Tell whether two centers of mass are mirror images in the root frame, whatever the frames.
+
+    The frames may be displaced along the axes of their joints.
+    """
+    points = [_locate_com(sides, one) for one in (link, other)]
+    if points[0] is None or points[1] is None:
+        return False
+    normal = 1 if sides.normal is None else sides.normal
+    image = [-x if axis == normal else x for axis, x in enumerate(points[1])]
+    return math.dist(points[0], image) <= _NEAR_IMAGE
+
+
+_NEAR_IMAGE = 0.002
+"""Largest distance of a center of mass from the mirror image of its twin [m]. Chosen, no source."""
+
+
+def _locate_com(sides: Sides, link: Link) -> Vector | None:
+    """Locate a center of mass in the root frame [m]; None if the pose of the link is unknown."""
+    pose = sides.poses.get(link.name)
+    origin = link.inertial.origin if link.inertial is not None else None
+    return None if pose is None else pose.transform(origin.xyz if origin else (0.0, 0.0, 0.0))
 
 
 def _compute_factors(link: Link, other: Link) -> str:
