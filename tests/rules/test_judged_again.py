@@ -171,3 +171,26 @@ def test_a_file_that_is_included_by_a_computed_folder_is_part_of_a_robot(tmp_pat
     found = find_robots([str(tmp_path)], workspace=Workspace())
     names = {robot.path.rpartition("/")[2] for robot in found.robots.values()}
     assert names == {"top.xacro", "other.xacro"}
+
+
+ROOT = '<robot name="{}" xmlns:xacro="http://www.ros.org/wiki/xacro">{}</robot>'
+
+
+@pytest.mark.parametrize(
+    ("name", "inside", "advice"),
+    [
+        ("$(arg n)", '<xacro:arg name="n" default="ur"/>', "pass n:=ur"),
+        ("$(arg n)", '<xacro:arg name="n" default="$(arg m)"/>', "pass n:=VALUE"),
+        (
+            "r",
+            '<xacro:arg name="kind" default="five"/><xacro:property name="f" '
+            'value="${xacro.load_yaml(\'config/$(arg kind)/limits.yaml\')}"/><a b="${f}"/>',
+            "'five' is the default of xacro argument 'kind': pass kind:=…",
+        ),
+    ],
+)
+def test_the_argument_that_a_robot_needs_is_named(tmp_path, name, inside, advice):
+    path = tmp_path / "r.urdf.xacro"
+    path.write_text(ROOT.format(name, inside), "utf-8")
+    messages = [finding.message for finding in check(path)]
+    assert any(advice in message for message in messages), messages

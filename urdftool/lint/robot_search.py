@@ -83,8 +83,9 @@ class _Search:
         workspace: Access to files.
         candidates: Why a ``.xacro`` file may be a robot by its content, by resolved path.
         nameless: Resolved paths of xacro files whose ``<robot>`` has no name.
-        tails: Ends of the names that xacro computes for the files of ``<xacro:include>``, after the
-            last expression, by the resolved path of the file that includes.
+        tails: Ends of the names that xacro computes for the files of ``<xacro:include>``, or that
+            are in a package which is not found, after the last expression, by the resolved path of
+            the file that includes.
     """
 
     found: Repository
@@ -140,6 +141,7 @@ class _Search:
                 if match is not None:
                     target = os.path.join(packages.find(match[1]), target[match.end() :])
             except UrdftoolError:
+                self.tails.setdefault(real, []).append(_AFTER_EXPRESSION.sub("", target))
                 continue
             if "$" in target or "*" in target:
                 self.found.computes.add(real)

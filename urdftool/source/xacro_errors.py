@@ -35,7 +35,7 @@ def explain(
     for cause in list_causes(error):
         if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:
             if cause.path is not None:  # unreadable file: report it at the reference
-                argument = _suggest_argument(node, result)
+                argument = _suggest_argument(node, result) or _suggest_value(cause.path, result)
                 return _make_missing_error(cause.path, cause.message, at, argument, files)
             return type(cause)(
                 cause.message,
@@ -49,7 +49,7 @@ def explain(
             return cause
     rule, message, data = explain_failure(Failure(error, node, failed_text, result))
     if rule == "include-not-found":
-        message += _suggest_argument(node, result)
+        message += _suggest_argument(node, result) or _suggest_value(message, result)
     if at is None:
         return XacroError(message, path=result.file.path, rule=rule, data=data)
     return XacroError(message, at=at, rule=rule, data=data)
@@ -66,6 +66,18 @@ def _suggest_argument(include: XacroElement | None, result: Expansion) -> str:
     names = re.findall(r"\$\(arg\s+([^\s)]+)\s*\)", written)
     missing = [name for name in names if name not in result.given]
     return f"; the file name comes from an xacro argument: pass {missing[0]}:=…" if missing else ""
+
+
+def _suggest_value(text: str, result: Expansion) -> str:
+    """Return advice to set the argument whose default is a folder or file of a missing path."""
+    parts = set(re.split(r"[/\\:]", text))
+    for argument in result.arguments.values():
+        if argument.name not in result.given and argument.default in parts - {""}:
+            return (
+                f"; '{argument.default}' is the default of xacro argument '{argument.name}': "
+                f"pass {argument.name}:=…"
+            )
+    return ""
 
 
 def _make_missing_error(

@@ -141,7 +141,8 @@ def _explain_names(failure: Failure) -> Explanation | None:
         if failure.node is not None and failure.node.tagName == "robot":
             message = (
                 f"xacro argument '{name}' has no value, because xacro expands the attributes of "
-                f"<robot> before it reads <xacro:arg>; pass {name}:=VALUE{hint}"
+                f"<robot> before it reads <xacro:arg>; "
+                f"pass {name}:={_find_default(result, name) or 'VALUE'}{hint}"
             )
         else:
             message = (
@@ -152,6 +153,16 @@ def _explain_names(failure: Failure) -> Explanation | None:
     if "circular variable definition" in text:
         return Explanation("circular-property", text.split(" Consider ")[0])
     return None
+
+
+def _find_default(result: Expansion, name: str) -> str:
+    """Find the default that an ``<xacro:arg>`` of the file has as text; empty if it has none."""
+    text = result.file.data.decode(result.file.encoding, "replace")
+    for tag in re.findall(r"<xacro:arg\b[^<>]*>", text):
+        found: dict[str, str] = dict(re.findall(r"""(name|default)\s*=\s*["']([^"'$]*)["']""", tag))
+        if found.get("name") == name:
+            return found.get("default", "")
+    return ""
 
 
 def find_unknown_parameter(error: Exception) -> str:

@@ -219,7 +219,7 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
             )
 
 
-@mesh_case_mismatch.fix(SAFE)
+@mesh_case_mismatch.fix(SAFE, reveals=True)
 def write_name_on_disk(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the name in the case that the file and its folders have on disk."""
 

@@ -267,7 +267,7 @@ _REPAIRS = {
 """Pattern in the URI as written, and its replacement, by the defect."""
 
 
-@malformed_uri.fix(SAFE)
+@malformed_uri.fix(SAFE, reveals=True)
 def correct_uri(problem: Problem, context: FixContext) -> Proposal | None:
     """Correct slashes, and remove outer spaces; a missing name is not corrected."""
     if problem.data["defect"] not in _REPAIRS:

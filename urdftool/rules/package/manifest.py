@@ -390,7 +390,7 @@ def wrong_package_in_uri(robot: Robot, description: Description) -> Iterator[Pro
         )
 
 
-@wrong_package_in_uri.fix(UNSAFE)
+@wrong_package_in_uri.fix(UNSAFE, reveals=True)
 def write_own_package(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the own package in all URIs of the other, if it has all of the files."""
     own = context.description.packages.own
