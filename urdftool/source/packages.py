@@ -297,10 +297,14 @@ class Packages:
             inner: Path after the name.
         """
         if (name, inner) not in self._near:
-            self._near[name, inner] = self._find_folder_with(name, inner.lstrip("/"))
+            key = Packages.find_folder_with, self.file, name, inner
+            self._near[name, inner] = self.files.memoize(
+                key, lambda files: self.with_workspace(files)._find_folder_with(name, inner)
+            )
         return self._near[name, inner]
 
     def _find_folder_with(self, name: str, inner: str) -> Path | None:
+        inner = inner.lstrip("/")
         own = self.own
         roots = self._list_workspace_roots(own[1] if own else None)
         above = [folder for folder in self.file.parents if len(folder.parts) > 2][:_MAX_CLIMB]

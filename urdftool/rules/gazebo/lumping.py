@@ -44,6 +44,13 @@ def is_lumped(robot: Robot, link: str) -> bool:
 
 def get_lumped_body(robot: Robot, link: str) -> str:
     """Get the link into which a link is lumped, or the link itself."""
+    known: dict[str, str] = robot.memo.get(get_lumped_body, dict)
+    if link not in known:
+        known[link] = _find_lumped_body(robot, link)
+    return known[link]
+
+
+def _find_lumped_body(robot: Robot, link: str) -> str:
     seen = set()
     while is_lumped(robot, link) and link not in seen:
         seen.add(link)

@@ -110,12 +110,16 @@ def _make_uri_from(use: MeshUse, folder: Path, description: Description) -> str:
 
 def is_in_own_package(use: MeshUse, description: Description) -> bool:
     """Tell whether a mesh of a different package exists in the description's own package."""
-    own = description.packages.own
     scheme, _, rest = use.uri.partition("://")
     name, _, inside = rest.partition("/")
-    if own is None or scheme != "package" or use.exists or not inside or name == own[0]:
+    if scheme != "package" or use.exists or not inside:
         return False
-    return description.workspace.is_file(own[1] / inside)
+    known: dict[str, bool] = description.memo.get(is_in_own_package, dict)
+    if use.uri not in known:
+        own = description.packages.own
+        path = None if own is None or name == own[0] else own[1] / inside
+        known[use.uri] = path is not None and description.workspace.is_file(path)
+    return known[use.uri]
 
 
 def _get_inner_path(uri: str) -> str:
