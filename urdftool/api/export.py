@@ -70,6 +70,7 @@ def export_sdf(
     from ..formats.export import finish_export
     from ..formats.registry import format_named
     from ..formats.sdf.options import Options, get_folder_and_file
+    from .overlaps import find_overlaps
 
     choices = {
         "target": target,
@@ -84,7 +85,7 @@ def export_sdf(
         "force": force,
     }
     folder, file = get_folder_and_file(output or robot.name or "robot")
-    options = make_options(Options, choices, folder=folder, file=file)
+    options = make_options(Options, choices, folder=folder, file=file, overlaps=find_overlaps)
     sdf, robot = format_named("sdf"), robot if base == "free" else weld_base(robot)
     written = sdf.write(robot, options)
     written.losses += check_plugins(robot, target)

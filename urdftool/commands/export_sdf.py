@@ -54,6 +54,7 @@ def command(
         urdftool export sdf mira.urdf -o mira.sdf --target gazebo-classic
     """  # noqa: D301 -- click reads the escape
     from ..api.export import check_plugins
+    from ..api.overlaps import find_overlaps
     from ..formats.registry import format_named
     from ..model.world import weld_base
     from .export_report import run_export
@@ -62,7 +63,7 @@ def command(
     if place == "-" and not choices["uri"]:
         choices["uri"] = "file"  # standard output has no folder for relative URIs
     folder, file = get_folder_and_file(MODEL if place == "-" else place)
-    options = make_options(Options, choices, folder=folder, file=file)
+    options = make_options(Options, choices, folder=folder, file=file, overlaps=find_overlaps)
     model = read_any(console, robot, package, package_path, quiet=True)
     model = model if options.base == "free" else weld_base(model)
     report_gltf_axes(console, model)

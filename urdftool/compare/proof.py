@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple, Protocol
+from typing import Any, Literal, NamedTuple, Protocol
 
 from ..diagnostic import Severity
 from ..errors import ModelError
@@ -58,6 +58,10 @@ class Loss(Protocol):
     message: str
     name: str
     severity: Severity
+
+    @property
+    def data(self) -> Mapping[str, Any]:
+        """Return the values of the message."""
 
 
 class Excuse(NamedTuple):

@@ -157,6 +157,41 @@ def test_missing_folders_are_made(urdftool, write, tmp_path):
     assert (tmp_path / "not/yet/out/model.sdf").is_file()
 
 
+CUBE = """<robot name="c"><link name="a"><inertial><mass value="1"/>
+<inertia ixx=".01" ixy="0" ixz="0" iyy=".01" iyz="0" izz=".01"/></inertial>
+<collision><origin xyz="0 0 -0.1"/><geometry><box size=".2 .2 .2"/></geometry></collision></link>
+<link name="b"><inertial><mass value="1"/>
+<inertia ixx=".01" ixy="0" ixz="0" iyy=".01" iyz="0" izz=".01"/></inertial>
+<collision><geometry><box size=".1 .1 .1"/></geometry></collision></link>
+<link name="m"><inertial><mass value="1"/>
+<inertia ixx=".01" ixy="0" ixz="0" iyy=".01" iyz="0" izz=".01"/></inertial></link>
+<joint name="j" type="prismatic"><parent link="a"/><child link="m"/><axis xyz="0 0 1"/>
+<limit lower="0" upper="1" effort="9" velocity="9"/></joint>
+<joint name="k" type="revolute"><parent link="m"/><child link="b"/>
+<limit lower="-1" upper="1" effort="9" velocity="9"/></joint>{}</robot>"""
+
+
+def test_the_start_on_the_ground_is_in_the_world_and_named(urdftool, write, tmp_path):
+    path = write("c.urdf", CUBE.format(""))
+    done = urdftool("export", "sdf", path, "-o", "out", "--world", "--verify", "-v")
+    assert done.code == 0
+    assert "its root is at z = 0.2 m; world.sdf places it there" in done.err
+    assert "<pose>0 0 0.2 0 0 0</pose>" in (tmp_path / "out/world.sdf").read_text()
+    assert "0.2 0 0 0" not in (tmp_path / "out/model.sdf").read_text().partition("<collision")[0]
+    done = urdftool("export", "sdf", path, "-o", "alone", "-v")
+    assert "spawn it there (-z 0.2)" in done.err
+
+
+@pytest.mark.library("mujoco")
+def test_links_that_overlap_at_the_start_are_named(urdftool, write):
+    collide = "<gazebo><self_collide>true</self_collide></gazebo>"
+    done = urdftool("export", "sdf", write("c.urdf", CUBE.format(collide)), "-o", "out")
+    assert "2 links overlap at the start, and Gazebo pushes them apart" in done.err
+    assert "'a' and 'b'" in done.err or "'b' and 'a'" in done.err
+    done = urdftool("export", "sdf", write("d.urdf", CUBE.format("")), "-o", "other")
+    assert "overlap" not in done.err
+
+
 def test_a_world(urdftool, write, tmp_path):
     path = write("r.urdf", ROBOT)
     assert urdftool("export", "sdf", path, "-o", "out", "--world", "--verify").code == 0

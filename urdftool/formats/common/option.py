@@ -9,6 +9,8 @@ from pathlib import Path, PurePath
 from typing import Any, Literal, TypeVar, get_args
 
 from ...errors import ConfigError
+from ...finding import Finding
+from ...model.elements import Robot
 from ...suggestions import require_word
 
 T = TypeVar("T")
@@ -23,6 +25,10 @@ Actuators = Literal["auto", "described", "none", "position", "velocity", "motor"
 
 FixInertia = Literal["none", "lift", "balance", "box"]
 """Reject it; the nearest consistent tensor; a sphere's of the same mean; a box's of its size."""
+
+Overlaps = Callable[[Robot, Mapping[str, float]], Finding | None]
+"""Finds the links of a robot that overlap at joint positions [rad or m]: a finding whose data has
+the ``pairs`` of their names; None for none."""
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from ..common.option import (
     FORCE,
     MESH_FOLDER,
     FixInertia,
+    Overlaps,
     check_options,
     declare,
 )
@@ -58,6 +59,7 @@ class Options:
     Attributes:
         folder: Name of the output folder, which is the model's in ``model://`` URIs.
         file: Name of the output file; empty for a folder.
+        overlaps: Finds links that overlap at the start, which is reported; None reports no start.
     """
 
     target: Target = field(
@@ -107,6 +109,7 @@ class Options:
     force: bool = field(default=False, metadata=FORCE)
     folder: str = ""
     file: str = ""
+    overlaps: Overlaps | None = None
     mesh_dir: str = field(default="meshes", metadata=MESH_FOLDER)
     fix_inertia: FixInertia = field(default="none", metadata=FIX_INERTIA)
     actuator_config: Path | None = field(

@@ -33,6 +33,7 @@ from .names import get_model_name, make_names
 from .native import report_uncopied
 from .options import MODEL, Options
 from .plan import Plan, make_plan
+from .start import place_on_ground, report_start
 from .translation import Translation
 from .world import add_world
 from .xml import Node, add, serialize_document
@@ -80,7 +81,8 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     node = add_model(root, t)
     _report_names(t)
     report_passed_defects(written, found)
-    _add_files(t, root, node)
+    height = report_start(robot, options, written)
+    _add_files(t, root, node, height)
     return written
 
 
@@ -88,16 +90,18 @@ def _build_root(options: Options) -> Node:
     return etree.Element("sdf", version=options.sdf_version)
 
 
-def _add_files(t: Translation, root: Node, node: Node) -> None:
+def _add_files(t: Translation, root: Node, node: Node, height: float) -> None:
     options, files = t.options, t.written.files
     source = PurePath(t.robot.source.path).name if t.robot.source is not None else "a robot"
     if options.file and options.world:
+        place_on_ground(node, height)
         add_world(root, t, node)
     files[t.written.main] = mark(serialize_document(root), source)
     if not options.file:
         files["model.config"] = mark(write_config(get_model_name(t.robot), options), source)
         if options.world:
             around = _build_root(options)
+            place_on_ground(node, height)
             add_world(around, t, node)
             files[WORLD_FILE] = mark(serialize_document(around), source)
     if t.written.renamed:

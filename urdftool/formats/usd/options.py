@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, get_args
 
-from ...finding import Finding
-from ...model.elements import Robot
 from ..common.cut import Cutter
 from ..common.option import (
     ACTUATORS,
@@ -21,6 +19,7 @@ from ..common.option import (
     Actuators,
     Base,
     FixInertia,
+    Overlaps,
     check_options,
     declare,
 )
@@ -28,10 +27,6 @@ from ..common.option import (
 Target = Literal["both", "newton", "isaac"]
 Layers = Literal["single", "payload"]
 Approximation = Literal["hull", "mesh"]
-
-Overlaps = Callable[[Robot, Mapping[str, float]], Finding | None]
-"""Finds the links of a robot that overlap at joint positions [rad or m]: a finding whose data has
-the ``pairs`` of their names; None for none."""
 
 SUFFIXES = (".usda", ".usdc", ".usdz", ".usd")
 

@@ -1,0 +1,91 @@
+"""Where a model starts in Gazebo: the height at which it stands, and links that overlap there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from lxml import etree
+
+from ...diagnostic import Severity
+from ...model.elements import Robot
+from ...model.pose import IDENTITY
+from ...model.settings import is_set
+from ...model.start import start_positions
+from ...model.world import WORLD, find_model_origin
+from ..common.floor import lift_to_floor
+from ..common.numbers import number_text
+from ..common.rigid_tree import group_rigid_links
+from ..common.shape_box import ShapeBoxes
+from ..written import Written
+from .options import Options
+from .xml import Node
+
+
+def report_start(robot: Robot, options: Options, written: Written) -> float:
+    """Report where a model starts, and return the height of its root above the ground [m].
+
+    Gazebo starts joints at zero, or at the limit nearest to it. The height is that of exports to
+    MJCF and USD; a base that is fixed, or that the description places, has none.
+
+    Args:
+        robot: The robot with its base as exported.
+        options: Options of the export.
+        written: Receives a note on the height, and a warning on links that overlap.
+    """
+    if options.overlaps is None:
+        return 0.0
+    positions, _ = start_positions(robot)
+    _report_overlaps(robot, options, positions, written)
+    roots = robot.tree.roots
+    if len(roots) != 1 or roots[0].name == WORLD or find_model_origin(robot) is not None:
+        return 0.0
+    tree = group_rigid_links(robot, lambda joint: not joint.is_fixed)
+    height = lift_to_floor(tree, ShapeBoxes(robot), positions, IDENTITY).translation[2]
+    if height:
+        done = "world.sdf places it there" if options.world else f"spawn it there (-z {height:g})"
+        written.report_loss(
+            "start",
+            f"the lowest point of the robot is at the ground if its root is at z = {height:g} m; "
+            f"{done}",
+            roots[0].place,
+            kind="link",
+            name=roots[0].name,
+            severity=Severity.INFO,
+            data={"height": height},
+        )
+    return height
+
+
+def place_on_ground(model: Node, height: float) -> None:
+    """Place a model without a pose at a height [m]."""
+    if height and model.find("pose") is None:
+        pose = etree.Element("pose")
+        pose.text = f"0 0 {number_text(height)} 0 0 0"
+        model.insert(0, pose)
+
+
+def _report_overlaps(
+    robot: Robot, options: Options, positions: Mapping[str, float], written: Written
+) -> None:
+    """Report links that overlap at the start of a model whose links collide with each other."""
+    levels = (robot.settings, *(link.settings for link in robot.links))
+    if options.overlaps is None or not any(is_set(one, "self_collide") for one in levels):
+        return  # Gazebo has no contacts between the links
+    finding = options.overlaps(robot, positions)
+    if finding is None:
+        return
+    pairs = finding.data.get("pairs", ())
+    names = ", ".join(f"'{one}' and '{other}'" for one, other in pairs[:_SHOWN])
+    more = f" and {len(pairs) - _SHOWN} more" if len(pairs) > _SHOWN else ""
+    count = f"{len(pairs)} pairs of links overlap" if len(pairs) > 1 else "2 links overlap"
+    written.report_loss(
+        "overlap",
+        f"{count} at the start, and Gazebo pushes them apart, since <self_collide> is set: "
+        f"{names}{more}; SDF has no pairs without contact",
+        robot.place,
+        data={"pairs": pairs},
+    )
+
+
+_SHOWN = 4
+"""Pairs that a message names; chosen, no source."""
