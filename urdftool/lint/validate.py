@@ -117,6 +117,7 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("radius-of-gyration"),
             Requirement("implausible-density", _make_conditions(is_too_large=(True,))),
             Requirement("mass-outlier"),
+            Requirement("plugin-unknown-entity"),
             Requirement("mesh-in-millimeters"),
             Requirement("shape-in-millimeters"),
         ),

@@ -57,3 +57,16 @@ def test_the_python_function_says_it_too(write):
     path = write("r.urdf", ROBOT)
     written = urdftool.export_sdf(urdftool.load(path))
     assert "plugin-unknown-entity" in [loss.code for loss in written.losses]
+
+
+@pytest.mark.parametrize(("joint", "count"), [("whel", 1), ("wheel", 0)])
+def test_a_simulation_says_it_too(write, joint, count):
+    import urdftool
+    from urdftool.simulation.settings import Settings
+
+    pytest.importorskip("mujoco")
+    robot = urdftool.load(write("r.urdf", ROBOT.replace("whel<", f"{joint}<")))
+    (verdict,) = urdftool.simulate(robot, Settings(duration=0.1), engine="mujoco")
+    found = [fault for fault in verdict.faults if fault.code == "plugin-mismatch"]
+    assert [fault.rule for fault in found] == ["plugin-unknown-entity"] * count
+    assert [fault.severity.label for fault in found] == ["warning"] * count

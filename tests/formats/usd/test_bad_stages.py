@@ -103,3 +103,34 @@ def test_changed_bytes_of_a_binary_stage_are_an_error_or_another_robot(count, wr
         path.write_bytes(bytes(changed))
         with suppress(UrdftoolError):  # any other exception fails the test
             read(path, mesh_folder=tmp_path / "meshes")
+
+
+HEAD = 'defaultPrim = "r"'
+
+
+@pytest.mark.parametrize(
+    ("root", "code", "message"),
+    [
+        ('upAxis = "Z"', "", ""),
+        ('upAxis = "Y"', "unread-units", "upAxis Z, not Y"),
+        ('upAxis = "Q"', "unread-up-axis", "upAxis 'Q'"),
+        ('upAxis = "Z"\n    metersPerUnit = 0.01', "unread-units", "metersPerUnit 1.0, not 0.01"),
+        ('upAxis = "Z"\n    kilogramsPerUnit = 0.001', "unread-units", "1.0, not 0.001"),
+    ],
+)
+def test_layers_of_other_units_are_reported(root, code, message, write, tmp_path):
+    """OpenUSD takes units from the root layer only, so a referenced robot has another size."""
+    from urdftool.formats.usd.read import read
+
+    units = 'upAxis = "Z"\n    metersPerUnit = 1.0\n    kilogramsPerUnit = 1.0'
+    part = f"#usda 1.0\n(\n    {HEAD}\n    {units}\n)\n"
+    write("part.usda", part + stage(*TWO).partition("\n)\n")[2])
+    names = [line.split()[0] for line in root.splitlines()]
+    others = [line for line in units.splitlines() if line.split()[0] not in names]
+    text = REFERENCE.format("references = @./part.usda@").replace(
+        HEAD, "\n    ".join((HEAD, root, *(line.strip() for line in others)))
+    )
+    losses = read(write("r.usda", text), mesh_folder=tmp_path / "meshes").losses
+    found = [loss for loss in losses if loss.code in ("unread-units", "unread-up-axis")]
+    assert [loss.code for loss in found][:1] == [code][: bool(code)]
+    assert any(message in loss.message for loss in found) or not code

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from pxr import Usd, UsdPhysics
+from pxr import Sdf, Usd, UsdPhysics
 
 from ...diagnostic import Severity
 from .read_stage import Context
@@ -65,6 +65,7 @@ def report_unread(context: Context) -> None:
         if UsdPhysics.RigidBodyAPI(prim).GetKinematicEnabledAttr().Get():
             context.report_loss("kinematic", "kinematic bodies are read as dynamic ones", prim)
     _report_variants(context)
+    _report_units(context)
 
 
 def _is_default(prim: Usd.Prim, name: str) -> bool:
@@ -84,3 +85,29 @@ def _report_variants(context: Context) -> None:
             shown = f"{name}: {selected}, not {', '.join(others)}"
             place = context.get_place(context.top)
             context.losses.add("variant", text, shown, place, Severity.INFO)
+
+
+_UNITS = {"upAxis": "Y", "metersPerUnit": 0.01, "kilogramsPerUnit": 1.0}
+"""Metadata of a layer that OpenUSD takes from the root layer only, with their defaults."""
+
+
+def _report_units(context: Context) -> None:
+    """Report an up axis that does not exist, and layers whose units are not those of the stage."""
+    root = context.stage.GetRootLayer()
+    own = {name: _get_metadata(root, name, default) for name, default in _UNITS.items()}
+    place = context.get_place(context.stage.GetPseudoRoot())
+    if own["upAxis"] not in ("Y", "Z"):
+        text = "an up axis other than Y and Z is read as Z"
+        context.losses.add("up-axis", text, f"upAxis '{own['upAxis']}'", place)
+    for layer in context.stage.GetUsedLayers():
+        for name, value in own.items():
+            other = _get_metadata(layer, name, value)
+            if other != value:
+                text = "layers have other units than the stage, and OpenUSD does not convert them"
+                shown = f"{layer.GetDisplayName()}: {name} {other}, not {value}"
+                context.losses.add("units", text, shown, place)
+
+
+def _get_metadata(layer: Sdf.Layer, name: str, default: object) -> object:
+    """Return a value of the metadata of a layer; the default without one."""
+    return layer.pseudoRoot.GetInfo(name) if layer.pseudoRoot.HasInfo(name) else default

@@ -45,6 +45,7 @@ KINDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "too-dense": ("implausible-density",),
         "mass-outlier": ("mass-outlier",),
         "too-large": ("mesh-in-millimeters", "shape-in-millimeters"),
+        "plugin-mismatch": ("plugin-unknown-entity",),
     }
 )
 """Rules of each verdict kind, the most specific one first."""
@@ -53,7 +54,10 @@ REMARKS = frozenset(("no-extent",))
 """Kinds that never fail a run: the shape is ignored, as by the exporters."""
 
 WARNINGS = frozenset(
-    ("no-mass", "impossible-inertia", "inertia-too-large", "too-dense", "mass-outlier")
+    (
+        *("no-mass", "impossible-inertia", "inertia-too-large", "too-dense", "mass-outlier"),
+        "plugin-mismatch",
+    )
 )
 """Kinds of values in the file, which fail a run with ``--strict`` only.
 
@@ -128,6 +132,10 @@ def _choose_severity(kind: str, about: Described) -> Severity:
 
 def _explain_always(_about: Described) -> str | None:
     return ""
+
+
+def _explain_plugin(_about: Described) -> str | None:
+    return "the engine runs no plugins; the plugin does not find it in Gazebo"
 
 
 def _explain_extent(_about: Described) -> str | None:
@@ -206,6 +214,7 @@ _CAUSES: Mapping[str, Callable[[Described], str | None]] = MappingProxyType(
         "too-dense": _explain_density,
         "mass-outlier": _explain_moving_body,
         "too-large": _explain_scale,
+        "plugin-mismatch": _explain_plugin,
     }
 )
 """Function of each kind that explains a finding; None if the finding does not affect the run."""
