@@ -12,6 +12,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from ..errors import SourceError
+from ..model.angles import format_angles
 from ..model.elements import Mesh, Robot
 from ..model.pose import Pose, make_pose, rpy_from_rotation
 from ..model.read import read_robot
@@ -217,7 +218,8 @@ def _format_primitive_block(shape: Shape, piece: Piece) -> list[str]:
     x, y, z = piece.rotation.tolist()
     a, b, c = piece.center.tolist()
     pose = make_pose(shape.origin) @ Pose((tuple(x), tuple(y), tuple(z)), (a, b, c))
-    xyz, rpy = _format_numbers(pose.translation), _format_numbers(rpy_from_rotation(pose.rotation))
+    xyz = _format_numbers(pose.translation)
+    rpy = format_angles(round(angle, 9) for angle in rpy_from_rotation(pose.rotation))
     origin = "" if xyz == rpy == "0 0 0" else f'<origin xyz="{xyz}" rpy="{rpy}"/>'
     return _block(origin, format_geometry_tag(piece))
 

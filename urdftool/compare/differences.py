@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
+from ..model.angles import restore_angle
 from ..model.elements import Joint, Link, Robot, Vector
-from ..model.pose import compute_norm, make_pose
+from ..model.pose import compute_norm, make_restored_pose
 from .change import Change
 from .changed_settings import compare_settings
 from .extensions import compare_extensions
@@ -169,7 +170,7 @@ def compare_joints(
         before, after = getattr(a, what), getattr(b, what)
         if (before if what == "type" else renamed.get(before, before)) != after:
             yield change(what, before, after)
-    one, two = make_pose(a.origin), make_pose(b.origin)
+    one, two = make_restored_pose(a.origin), make_restored_pose(b.origin)
     if not is_same_pose(one, two, tolerance):
         yield change("origin", describe_pose(one), describe_pose(two), "", format_motion(one, two))
     if a.has_axis and b.has_axis:
@@ -185,6 +186,10 @@ def _get_axis(joint: Joint) -> Vector:
     x, y, z = joint.axis.xyz if joint.axis is not None else _X
     length = compute_norm((x, y, z)) or 1.0
     return x / length, y / length, z / length
+
+
+def _restore(value: float | None) -> float | None:
+    return None if value is None else restore_angle(value)
 
 
 def _compare_numbers(
@@ -219,7 +224,9 @@ def _compare_numbers(
             if isinstance(before, str) or isinstance(after, str):
                 same = renamed.get(before or "", before) == after
             else:
-                same = close(before, after, tolerance)
+                same = close(before, after, tolerance) or (
+                    unit == "rad" and close(_restore(before), _restore(after), tolerance)
+                )
             if not same:
                 what = f"{part.replace('_', ' ')} {name.replace('_', ' ')}"
                 yield Change("joint", b.name, what, before, after, unit, "", place)

@@ -24,7 +24,7 @@ from ..model.elements import (
     Visual,
 )
 from ..model.materials import resolve_material
-from ..model.pose import Pose, make_pose, rpy_from_rotation
+from ..model.pose import Pose, make_pose, make_restored_pose, rpy_from_rotation
 from ..model.shapes import get_shape_name
 from .change import Change
 from .tolerance import are_close, close, compute_distance, format_motion, is_same_pose
@@ -155,7 +155,7 @@ def _compare_shape(
     )
     if not same:
         yield Change("link", link.name, f"{kind}{number} geometry", before, after, place=b.place)
-    one, two = make_pose(a.origin), make_pose(b.origin)
+    one, two = make_restored_pose(a.origin), make_restored_pose(b.origin)
     if not is_same_pose(one, two, tolerance):
         what = f"{kind}{number} origin"
         facts = describe_pose(one), describe_pose(two)

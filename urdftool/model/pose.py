@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+from .angles import restore_angle
 from .elements import Origin, Vector
 
 if TYPE_CHECKING:
@@ -55,6 +56,14 @@ def make_pose(origin: Origin | None) -> Pose:
         x, y, z, w = origin.quaternion
         return Pose(rotation_from_quaternion((w, x, y, z)), origin.xyz)
     return Pose(rotation_from_rpy(origin.rpy), origin.xyz)
+
+
+def make_restored_pose(origin: Origin | None) -> Pose:
+    """Return the pose of an ``<origin>`` whose rounded multiples of 15° are exact."""
+    if origin is None or origin.quaternion is not None:
+        return make_pose(origin)
+    roll, pitch, yaw = map(restore_angle, origin.rpy)
+    return Pose(rotation_from_rpy((roll, pitch, yaw)), origin.xyz)
 
 
 def get_origin_at(pose: Pose, provenance: Provenance | None = None) -> Origin:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from urdftool.formats.mjcf.digits import number_text, round_noise
+from urdftool.formats.common.numbers import number_text, round_noise
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf

@@ -1,8 +1,8 @@
-"""Numbers as text: the shortest that reads back as the same double.
+"""Numbers as text without floating-point noise: ``2.375e-06``, not ``2.3749999999999997e-06``.
 
-xacro expressions and rotations of inertia tensors leave rounding errors: ``2.375e-06`` becomes
-``2.3749999999999997e-06``. A number within a few units in the last place of one with at most ten
-digits may be replaced by that one: a relative change below 2e-15.
+xacro expressions and rotations of inertia tensors leave such rounding errors. A number within a few
+units in the last place of one with at most ten digits is replaced by that one: a relative change
+below 2e-15.
 """
 
 from __future__ import annotations
@@ -16,6 +16,9 @@ DIGITS = 10
 NOISE = 8
 """Units in the last place that are attributed to rounding."""
 
+NOTHING = 1e-15
+"""Position [m] and angle [rad] that is rounding; chosen, far below the 1e-9 m of the proof."""
+
 
 def round_noise(value: float) -> float:
     """Round a number to ten significant digits if the change is within rounding noise."""
@@ -26,17 +29,23 @@ def round_noise(value: float) -> float:
 
 
 def number_text(value: float) -> str:
-    """Format a number as the shortest text that reads back as the same double.
+    """Format a number as the shortest text that reads back as the same double, without noise.
 
     Whole numbers have no decimal point; -0 is written as 0.
     """
+    value = round_noise(float(value))
     if value == 0:
         return "0"
-    if value == int(value) and abs(value) < 1e16:
+    if math.isfinite(value) and value == int(value) and abs(value) < 1e16:
         return str(int(value))
-    return repr(float(value))
+    return repr(value)
 
 
 def format_numbers_text(values: Iterable[float]) -> str:
     """Format numbers, separated by blanks."""
     return " ".join(map(number_text, values))
+
+
+def format_pose_text(values: Iterable[float]) -> str:
+    """Format positions [m] and angles [rad], separated by blanks; rounding errors of 0 are 0."""
+    return " ".join("0" if abs(value) < NOTHING else number_text(value) for value in values)

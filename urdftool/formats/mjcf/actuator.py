@@ -18,6 +18,7 @@ from ...model.mechanism import JointActuator
 from ..common.actuator_config import JointSettings
 from ..common.drive_choice import AUTO, Drive, list_drives
 from ..common.joint_loads import JointLoad
+from ..common.numbers import format_numbers_text, number_text
 from ..common.servo_gains import (
     TIMESTEP,
     Gain,
@@ -28,7 +29,6 @@ from ..common.servo_gains import (
 )
 from ..common.standing import Ground
 from ..written import Written
-from .digits import format_numbers_text, number_text
 from .for_rl import replace_motors
 from .joint import get_effort
 from .options import Options

@@ -6,8 +6,8 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Joint
+from ..common.numbers import format_numbers_text
 from ..written import Written
-from .digits import format_numbers_text
 from .loops import STIFF, build_loop_equalities
 from .structure import Structure, get_locked_at
 

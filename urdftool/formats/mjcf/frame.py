@@ -8,7 +8,7 @@ from lxml import etree
 
 from ...model.elements import Origin
 from ...model.pose import Pose, Quaternion, quaternion_from_rotation, quaternion_from_rpy
-from .digits import format_numbers_text
+from ..common.numbers import format_numbers_text
 
 _SAME = 1e-15
 

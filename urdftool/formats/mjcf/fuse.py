@@ -17,9 +17,9 @@ from ...mechanics.spatial_inertia import combine
 from ...model.elements import Vector
 from ...model.pose import Pose, rotate, rotation_from_quaternion
 from ..common.naming import UniqueNames
+from ..common.numbers import format_numbers_text
 from ..written import Written
 from .body import Bodies
-from .digits import format_numbers_text
 from .frame import set_pose
 from .joint import SITE
 from .link_inertia import LinkInertia, build_inertial_element

@@ -9,9 +9,9 @@ from ...model.blocks import list_elements
 from ...model.elements import Collision, GazeboExtension, Link, Robot
 from ...model.settings import SURFACE_OF_MUJOCO, Content, Setting, Settings, get_number
 from ...source.document import Element
+from ..common.numbers import format_numbers_text, number_text
 from ..common.unexpressed import report_unwritten_settings
 from ..written import Written
-from .digits import format_numbers_text, number_text
 
 DEFAULT_FRICTION = "1 0.005 0.0001"
 """MuJoCo's sliding, torsional [m] and rolling [m] friction."""

@@ -14,9 +14,9 @@ from ...model.elements import (
 )
 from ...model.shapes import get_shape_name
 from ..common.naming import UniqueNames
+from ..common.numbers import format_numbers_text
 from ..common.shape_box import get_shape_size
 from ..written import Written
-from .digits import format_numbers_text
 from .frame import set_origin
 from .gazebo import get_surface_attributes, report_surface_losses
 from .material import Materials

@@ -12,8 +12,8 @@ from ...model.elements import Joint, Limit, Vector
 from ...model.pose import compute_cross, compute_norm
 from ...model.settings import JOINTS_OF_MUJOCO
 from ..common.missing_bounds import explain_missing_bounds
+from ..common.numbers import format_numbers_text, number_text
 from ..written import Written
-from .digits import format_numbers_text, number_text
 from .gazebo import get_attributes
 from .structure import Structure, get_bounds
 

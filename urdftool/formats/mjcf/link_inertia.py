@@ -19,8 +19,8 @@ from ...mechanics.tensor import (
 from ...model.elements import ZERO, Link, Origin, Vector
 from ...model.pose import make_pose, quaternion_from_rotation
 from ...source.location import Place
+from ..common.numbers import format_numbers_text, number_text
 from . import inertia as tensors
-from .digits import format_numbers_text, number_text
 from .frame import get_quaternion, simplify_quaternion
 
 POINT = 1e-15

@@ -20,8 +20,8 @@ from ...model.pose import (
 )
 from ...model.settings import Rejected
 from ..common.naming import UniqueNames
+from ..common.numbers import format_numbers_text
 from ..written import Written
-from .digits import format_numbers_text
 from .structure import WORLD, Structure
 
 KINDS = {"revolute": "connect", "continuous": "connect", "ball": "connect", "fixed": "weld"}

@@ -11,9 +11,9 @@ from ...errors import SourceError
 from ...model.elements import Link, Material, Robot, Visual
 from ...model.materials import find_shown_material
 from ..common.naming import UniqueNames, replace_file_name
+from ..common.numbers import format_numbers_text
 from ..written import Written
 from .convert import Image, Rgba
-from .digits import format_numbers_text
 from .meshes import MeshPiece
 from .texture import get_png
 

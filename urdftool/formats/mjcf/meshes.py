@@ -16,10 +16,10 @@ from ..common.assets import find_file
 from ..common.cut import Cut, Cutter
 from ..common.missing_files import create_missing_mesh
 from ..common.naming import UniqueNames, replace_file_name
+from ..common.numbers import format_numbers_text
 from ..defects import make_defect
 from ..written import Written
 from .convert import Converted, Image, Piece, Rgba
-from .digits import format_numbers_text
 from .obj import write_obj_bytes
 from .options import Options
 

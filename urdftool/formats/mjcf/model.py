@@ -12,13 +12,13 @@ from ...model.elements import Robot
 from ...model.pose import Pose, quaternion_from_rotation
 from ...model.settings import OF_WORLD
 from ..common.naming import UniqueNames
+from ..common.numbers import format_numbers_text, number_text
 from ..written import Written
 from .actuator import build_actuator_section
 from .body import build_body_tree, fill_bodies
 from .contact import build_contact_section
 from .copied import has_copied_actuators
 from .defaults import build_default_section
-from .digits import format_numbers_text, number_text
 from .document import assemble, report_losses
 from .equality import build_equality_section
 from .extension import apply_extension

@@ -10,8 +10,8 @@ from ...model.elements import Robot
 from ...model.mechanism import Camera, Frame, Light
 from ...model.pose import Pose, make_pose, rotation_from_quaternion
 from ..common.naming import UniqueNames
+from ..common.numbers import format_numbers_text, number_text
 from .body import Bodies
-from .digits import format_numbers_text, number_text
 from .frame import set_pose
 from .joint import SITE
 from .sensor import find_covered, list_touched

@@ -13,9 +13,9 @@ from ...model.elements import Robot
 from ...model.mechanism import NativeElement
 from ..common.drive_choice import AUTO
 from ..common.naming import get_free_name
+from ..common.numbers import format_numbers_text
 from ..written import Written
 from .copied import has_copied_actuators, has_copied_home, has_copies, list_native
-from .digits import format_numbers_text
 from .options import Options
 from .read_native_table import COPIED, KINDS, MERGED, OBJECTS, REFERENCES
 from .structure import Structure

@@ -9,10 +9,10 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Vector
 from ..common.naming import UniqueNames
+from ..common.numbers import number_text
 from ..common.shape_box import ShapeBoxes
 from ..common.standing import Ground, measure_ground
 from ..written import Written
-from .digits import number_text
 from .document import serialize
 from .home import Home
 from .plan import Plan

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...model.elements import Origin
 from ...model.pose import Pose, rotation_from_quaternion, rpy_from_rotation
-from ..common.numbers import format_numbers_text
+from ..common.numbers import format_pose_text
 from .xml import Node, add
 
 
@@ -25,14 +25,14 @@ def set_origin(
         return
     frame = {"relative_to": relative_to} if relative_to else {}
     if origin.quaternion is not None and exact:
-        text = format_numbers_text((*origin.xyz, *origin.quaternion))
+        text = format_pose_text((*origin.xyz, *origin.quaternion))
         add(node, "pose", text, rotation_format="quat_xyzw", **frame)
         return
     rpy = origin.rpy
     if origin.quaternion is not None:
         x, y, z, w = origin.quaternion
         rpy = rpy_from_rotation(rotation_from_quaternion((w, x, y, z)))
-    add(node, "pose", format_numbers_text((*origin.xyz, *rpy)), **frame)
+    add(node, "pose", format_pose_text((*origin.xyz, *rpy)), **frame)
 
 
 def set_pose(node: Node, pose: Pose, relative_to: str = "") -> None:
@@ -40,4 +40,4 @@ def set_pose(node: Node, pose: Pose, relative_to: str = "") -> None:
     numbers = (*pose.translation, *rpy_from_rotation(pose.rotation))
     if any(numbers) or relative_to:
         frame = {"relative_to": relative_to} if relative_to else {}
-        add(node, "pose", format_numbers_text(numbers), **frame)
+        add(node, "pose", format_pose_text(numbers), **frame)

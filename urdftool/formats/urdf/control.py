@@ -10,7 +10,8 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ...model.mechanism import JointActuator, MountedSensor
-from .translation import Translation, add, format_number
+from ..common.numbers import number_text
+from .translation import Translation, add
 
 _INTERFACES = {"position": "position", "velocity": "velocity", "motor": "effort"}
 """Command interface of each kind of actuator."""
@@ -128,7 +129,7 @@ def _add_command(node: etree._Element, actuator: JointActuator) -> None:
 
 def _add_parameters(node: etree._Element, values: Iterable[tuple[str, float]]) -> None:
     for name, value in values:
-        add(node, "param", format_number(value), name=name)
+        add(node, "param", number_text(value), name=name)
 
 
 def _add_states(

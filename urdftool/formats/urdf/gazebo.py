@@ -15,8 +15,9 @@ from ...model.provenance import Written as Source
 from ...model.world import WORLD
 from ...source.document import Element
 from ..common.naming import UniqueNames
+from ..common.numbers import format_pose_text, number_text
 from .control import is_joint_state
-from .translation import Translation, add, add_origin, format_number, format_numbers, get_rpy
+from .translation import Translation, add, add_origin, get_rpy
 
 _COPIED = ("gazebo", "transmission", "ros2_control")
 
@@ -116,7 +117,7 @@ def _add_camera(
     inner = add(sensor, "camera")
     if camera.vertical_fov is not None:
         across = 2 * math.atan(math.tan(camera.vertical_fov / 2) * width / height)
-        add(inner, "horizontal_fov", format_number(across))
+        add(inner, "horizontal_fov", number_text(across))
     image = add(inner, "image")
     add(image, "width", str(width))
     add(image, "height", str(height))
@@ -233,7 +234,7 @@ def _add_pose(sensor: etree._Element, origin: Origin | None) -> None:
     if origin is None or make_pose(origin) == IDENTITY:
         return
     pose = etree.Element("pose")
-    pose.text = f"{format_numbers(*origin.xyz)} {format_numbers(*get_rpy(origin))}"
+    pose.text = format_pose_text((*origin.xyz, *get_rpy(origin)))
     sensor.insert(0, pose)
 
 

@@ -8,7 +8,8 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES
-from .translation import Translation, add, format_number
+from ..common.numbers import number_text
+from .translation import Translation, add
 
 _GROUP = "robot"
 
@@ -53,7 +54,7 @@ def _add_states(t: Translation, root: etree._Element) -> None:
         state = add(root, "group_state", name=configuration.name, group=_GROUP)
         for joint, value in configuration.positions.items():
             if joint in movable:
-                add(state, "joint", name=movable[joint], value=format_number(value))
+                add(state, "joint", name=movable[joint], value=number_text(value))
     if any(joint.type in BALL_TYPES for joint in t.robot.joints):
         t.written.report_loss(
             "configuration",

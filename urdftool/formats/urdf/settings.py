@@ -9,7 +9,8 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Joint, Link, Robot
 from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Content, Setting, Settings
-from .translation import Translation, add, format_number, format_numbers
+from ..common.numbers import number_text
+from .translation import Translation, add, format_numbers
 
 _WITH_SPRING = ("revolute", "continuous", "prismatic")
 
@@ -94,7 +95,7 @@ def _add_block(
 def _format(content: Content) -> str:
     if isinstance(content, bool | str):
         return str(content).lower() if isinstance(content, bool) else content
-    return format_numbers(*content) if isinstance(content, tuple) else format_number(content)
+    return format_numbers(*content) if isinstance(content, tuple) else number_text(content)
 
 
 def _get_or_create(node: etree._Element, path: str) -> etree._Element:

@@ -8,7 +8,7 @@ from lxml import etree
 
 from ...model.elements import Origin, Robot
 from ...model.pose import make_pose, rpy_from_rotation
-from ..common.numbers import round_noise
+from ..common.numbers import NOTHING, format_numbers_text
 from ..written import Written
 from .mesh_files import MeshFiles
 from .names import Names
@@ -36,18 +36,9 @@ class Translation:
     root: etree._Element = field(default_factory=lambda: etree.Element("robot"))
 
 
-TINY = 1e-15
-"""Coordinate [m] or angle [rad] of an origin that is rounding noise; chosen, no source."""
-
-
-def format_number(value: float) -> str:
-    """Return the shortest text of a number without floating-point noise; ``-0`` is ``0``."""
-    return f"{round_noise(value) + 0.0!r}".removesuffix(".0")
-
-
 def format_numbers(*values: float) -> str:
     """Return the texts of numbers, with spaces between them."""
-    return " ".join(map(format_number, values))
+    return format_numbers_text(values)
 
 
 def add(parent: etree._Element, tag: str, text: str = "", /, **attributes: str) -> etree._Element:
@@ -69,7 +60,7 @@ def add_origin(parent: etree._Element, origin: Origin | None) -> None:
     if origin is None:
         return
     xyz, rpy = (
-        [x if abs(x) > TINY else 0.0 for x in part] for part in (origin.xyz, get_rpy(origin))
+        [x if abs(x) > NOTHING else 0.0 for x in part] for part in (origin.xyz, get_rpy(origin))
     )
     if any(xyz) or any(rpy):
         add(parent, "origin", xyz=format_numbers(*xyz), rpy=format_numbers(*rpy))

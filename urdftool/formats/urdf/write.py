@@ -19,6 +19,7 @@ from ..common.force_fallbacks import (
 )
 from ..common.missing_bounds import explain_missing_bounds
 from ..common.naming import replace_file_name
+from ..common.numbers import number_text
 from ..defects import refuse
 from ..written import Written
 from .control import add_control
@@ -29,7 +30,7 @@ from .options import Options
 from .semantics import make_srdf
 from .settings import add_settings
 from .shapes import add_shape
-from .translation import Translation, add, add_origin, format_number, format_numbers
+from .translation import Translation, add, add_origin, format_numbers
 from .trees import take_tree
 
 UNLIMITED = 1e9
@@ -99,10 +100,10 @@ def _add_link(t: Translation, link: Link) -> None:
     if inertial is not None and inertial.mass is not None:
         inner = add(node, "inertial")
         add_origin(inner, inertial.origin)
-        add(inner, "mass", value=format_number(inertial.mass))
+        add(inner, "mass", value=number_text(inertial.mass))
         six = (0.0,) * 6 if inertial.inertia is None else inertial.inertia.six
         names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-        add(inner, "inertia", **{n: format_number(v) for n, v in zip(names, six, strict=True)})
+        add(inner, "inertia", **{n: number_text(v) for n, v in zip(names, six, strict=True)})
     contact = link.find_child_xml("contact")
     if contact is not None:
         copy_element(node, contact)
@@ -134,7 +135,7 @@ def _add_joint(t: Translation, joint: Joint) -> None:
     dynamics = joint.dynamics
     if dynamics is not None and (dynamics.damping is not None or dynamics.friction is not None):
         written = {"damping": dynamics.damping, "friction": dynamics.friction}
-        add(node, "dynamics", **{n: format_number(v) for n, v in written.items() if v is not None})
+        add(node, "dynamics", **{n: number_text(v) for n, v in written.items() if v is not None})
     if joint.mimic is not None:
         m = joint.mimic
         leader = t.names.joints.get(m.joint, m.joint)
@@ -142,8 +143,8 @@ def _add_joint(t: Translation, joint: Joint) -> None:
             node,
             "mimic",
             joint=leader,
-            multiplier=format_number(m.multiplier),
-            offset=format_number(m.offset),
+            multiplier=number_text(m.multiplier),
+            offset=number_text(m.offset),
         )
     for tag in ("safety_controller", "calibration"):
         element = joint.find_child_xml(tag)
@@ -188,7 +189,7 @@ def _add_limit(t: Translation, node: etree._Element, joint: Joint, kind: str) ->
             "limit", text, joint.place, kind="joint", name=joint.name,
             severity=Severity.INFO, data=data,
         )  # fmt: skip
-    add(node, "limit", **{name: format_number(value) for name, value in values.items()})
+    add(node, "limit", **{name: number_text(value) for name, value in values.items()})
 
 
 def _bound(value: float | None, default: float) -> float:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ...model.angles import format_angles
 from ...model.elements import Robot
-from ..fix import FixContext, Proposal, find_attribute, format_numbers, set_attribute, unsafe
+from ..fix import FixContext, Proposal, find_attribute, set_attribute, unsafe
 from ..rule import UNSAFE, WARNING, Problem, rule
 from ..xml.owner import describe_owner
 from ..xml.vocabulary_table import get_census
@@ -39,8 +40,8 @@ def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iter
             continue
         data: dict[str, object] = {"angle": angle}
         if abs(angle) in _DEGREES:
-            data |= {"degrees": True, "write": format_numbers(map(math.radians, angles))}
-            shown = " ".join(f"{math.radians(a):.6g}" for a in angles)
+            data |= {"degrees": True, "write": format_angles(map(math.radians, angles))}
+            shown = format_angles(map(math.radians, angles), 6)
             what = f"has {angle:g} in its rpy, apparently degrees; write {shown} in radians"
         else:
             what = f"has {angle:g} rad in its rpy, more than one turn; check for degrees"

@@ -6,6 +6,7 @@ import math
 from bisect import bisect_left
 from collections.abc import Iterator
 
+from ...model.angles import format_angles
 from ...model.elements import Joint, Limit, Link, Robot
 from ...model.references import has_block
 from ..cross_file_references import check_alone
@@ -257,7 +258,7 @@ def write_limits_in_radians(problem: Problem, context: FixContext) -> Proposal |
     if "degrees" not in problem.data:
         return None
     changes = [
-        set_attribute(limit.element, name, format_numbers([math.radians(value)]))
+        set_attribute(limit.element, name, format_angles([math.radians(value)]))
         for name, value in (("lower", limit.lower), ("upper", limit.upper))
         if value
     ]
