@@ -166,3 +166,30 @@ def test_the_summary_has_it_on_stderr_and_only_for_people(many, urdftool):
         assert ("rules with the most findings:" in result.err) == there
         assert "most findings" not in result.out
     assert "most findings" not in urdftool("lint", many, *ONLY, "--statistics").err
+
+
+def make_long(count):
+    names = ", ".join(f"'wheel_link_{number}'" for number in range(count))
+    finding = fact("zero-mass", WARNING, 1)
+    finding.message = f"mass of {count} links is 0: {names}; write the mass [kg]"
+    return finding
+
+
+def test_a_long_list_of_names_is_cut_and_the_advice_stays():
+    [line, note] = shown([make_long(40)], cut=True)
+    assert "'wheel_link_3', … 35 more …, 'wheel_link_39'; write the mass [kg] [zero-mass]" in line
+    assert note == "1 message is cut at …; --all shows all names"
+    assert shown([make_long(40)])[0].count("wheel_link_") == 40
+    assert shown([make_long(8)], cut=True) == shown([make_long(8)])
+
+
+def test_a_long_text_without_names_is_not_cut():
+    finding = fact("zero-mass", WARNING, 1)
+    finding.message = "words, " * 100
+    assert shown([finding], cut=True)[0].count("words") == 100
+
+
+def test_full_wraps_long_lines():
+    lines = shown([make_long(100)], "full", whole=True)
+    assert max(map(len, lines)) <= 200
+    assert re.sub(r"\s+", " ", " ".join(lines)).count("'wheel_link_") == 100

@@ -92,6 +92,7 @@ def report(
         fail_on=threshold,
         statistics=output.statistics,
         whole=output.whole or to_file or (style == "concise" and not at_terminal),
+        cut=not (output.whole or to_file),
         pictures=output.draw(outcome) if output.draw is not None and style == "html" else {},
         fixes=output.fixes,
     )

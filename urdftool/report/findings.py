@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import textwrap
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
@@ -19,6 +21,11 @@ _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "bl
 _MOST_LINES = 3  # lines of the source that are shown for a finding
 _MOST_CALLS = 4  # calls of macros that are shown
 _LONGEST_LINE = 160  # characters of a line that is shown
+_LONGEST_MESSAGE = 300  # characters of a message whose names are all shown; chosen, no source
+_WIDEST = 200  # characters of a line of ``full``; chosen, no source
+_MOST_NAMES = 4  # names that a longer message shows; chosen, no source
+_NAME = re.compile(r"'[^']*'(?: and '[^']*')?[^,;']*, ")
+_NAMES = re.compile(r"(?:'[^']*'(?: and '[^']*')?[^,;']*, ){6,}")
 
 
 class Painter:
@@ -33,15 +40,29 @@ class Painter:
         return click.style(text, fg=color, bold=bold) if self.colors else text
 
 
-def format_concise(findings: Iterable[Finding], *, colors: bool = False) -> Iterator[str]:
-    """Yield ``FILE:LINE:COLUMN: severity: message [rule]`` for each finding."""
+def format_concise(
+    findings: Iterable[Finding], *, colors: bool = False, cut: bool = False
+) -> Iterator[str]:
+    """Yield ``FILE:LINE:COLUMN: severity: message [rule]`` for each finding.
+
+    Args:
+        findings: The findings.
+        colors: Whether to color the text.
+        cut: Whether to cut lists of names in long messages.
+    """
     paint = Painter(colors)
     for finding in findings:
-        yield _format_headline(finding, paint)
+        yield _format_headline(finding, paint, cut)
+
+
+def is_cut(finding: Finding) -> bool:
+    """Tell whether the message of a finding is so long that its list of names is cut."""
+    message = format_message(finding)
+    return _cut(message) != message
 
 
 def format_full(
-    findings: Iterable[Finding], *, colors: bool = False, whole: bool = True
+    findings: Iterable[Finding], *, colors: bool = False, whole: bool = True, cut: bool = False
 ) -> Iterator[str]:
     """Yield headline, source, effects in readers, macro calls and hint of each finding.
 
@@ -49,23 +70,47 @@ def format_full(
         findings: The findings.
         colors: Whether to color the text.
         whole: Whether to list all members of a group, or only some and the number of the others.
+        cut: Whether to cut lists of names in long messages and remarks.
     """
     paint = Painter(colors)
     for finding in findings:
-        yield _format_headline(finding, paint)
+        yield from _wrap(_format_headline(finding, paint, cut))
         yield from _format_source(finding, paint)
-        yield from (
-            f"   {paint('=', 'cyan')} {line}" for line in _format_remarks(finding, paint, whole)
-        )
+        for line in _format_remarks(finding, paint, whole):
+            yield from _wrap(f"   {paint('=', 'cyan')} {_cut(line) if cut else line}")
         yield ""
 
 
-def _format_headline(finding: Finding, paint: Painter) -> str:
+def _wrap(line: str) -> Iterator[str]:
+    """Yield a long line in several, the others indented; words are not broken."""
+    if len(line) <= _WIDEST:
+        yield line
+        return
+    indent = " " * 5
+    yield from textwrap.wrap(
+        line, _WIDEST, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
+
+
+def _cut(text: str) -> str:
+    """Shorten the list of names in a long text to its first ones; what follows it stays."""
+    if len(text) <= _LONGEST_MESSAGE:
+        return text
+    return _NAMES.sub(_shorten_list, text)
+
+
+def _shorten_list(match: re.Match[str]) -> str:
+    names = _NAME.findall(match[0])
+    return f"{''.join(names[:_MOST_NAMES])}… {len(names) - _MOST_NAMES} more …, "
+
+
+def _format_headline(finding: Finding, paint: Painter, cut: bool) -> str:
     color = _COLORS[finding.severity]
+    message = format_message(finding)
     return (
         f"{paint(escape_controls(str(finding.location)), bold=True)}: "
         f"{paint(finding.severity.label, color, bold=True)}: "
-        f"{format_message(finding)} {paint(f'[{finding.code}]', color)}"
+        f"{_cut(message) if cut else message} {paint(f'[{finding.code}]', color)}"
     )
 
 

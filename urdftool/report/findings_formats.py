@@ -20,6 +20,7 @@ def as_text(
     fail_on: Severity = Severity.WARNING,
     statistics: bool = False,
     whole: bool = True,
+    cut: bool = False,
     pictures: Mapping[str, bytes | str] = MappingProxyType({}),
     fixes: Mapping[str, Any] | None = None,
 ) -> str:
@@ -33,13 +34,15 @@ def as_text(
         statistics: Count findings by rule instead.
         whole: Whether ``full`` and ``concise`` list every finding, or at most a screen for each
             family of rules.
+        cut: Whether ``full`` and ``concise`` cut lists of names in long messages.
         pictures: PNG files of robots for ``html``, by path, or the reason why there is none.
         fixes: Record of the applied and refused fixes, for ``json``.
     """
     if statistics:
         return _format_joined(count_by_rule(outcome))
     if style in ("full", "concise"):
-        text = _format_joined(format_screen(outcome.findings, style, colors=colors, whole=whole))
+        lines = format_screen(outcome.findings, style, colors=colors, whole=whole, cut=cut)
+        text = _format_joined(lines)
     elif style == "html":
         from .findings_html import to_html
 

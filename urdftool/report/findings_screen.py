@@ -11,7 +11,7 @@ from ..finding import Finding
 from ..rules import FAMILY_OF
 from ..rules.table import FIXES
 from .counted import format_count
-from .findings import format_concise, format_full, format_severity_counts
+from .findings import format_concise, format_full, format_severity_counts, is_cut
 
 SCREEN = 25
 """Maximum number of lines for one family of rules, unless all are requested. Chosen, no source."""
@@ -40,7 +40,12 @@ def sort_by_severity(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def format_screen(
-    findings: Iterable[Finding], style: str, *, colors: bool = False, whole: bool = False
+    findings: Iterable[Finding],
+    style: str,
+    *,
+    colors: bool = False,
+    whole: bool = False,
+    cut: bool = False,
 ) -> Iterator[str]:
     """Yield the lines of findings, sorted by severity.
 
@@ -50,12 +55,15 @@ def format_screen(
         colors: Whether to color the text.
         whole: Whether to show all of them; otherwise a family that needs more lines than a screen
             gets one line for each finding, errors first, and the number of omitted findings.
+        cut: Whether to cut lists of names in long messages.
     """
     shown = sort_by_severity(findings)
     if style == "full":
-        blocks = [list(format_full([finding], colors=colors, whole=whole)) for finding in shown]
+        blocks = [
+            list(format_full([finding], colors=colors, whole=whole, cut=cut)) for finding in shown
+        ]
     else:
-        blocks = [[line] for line in format_concise(shown, colors=colors)]
+        blocks = [[line] for line in format_concise(shown, colors=colors, cut=cut)]
     left: dict[str, list[Finding]] = {}
     lengths = [len(block) for block in blocks]
     if not whole:
@@ -64,14 +72,18 @@ def format_screen(
             families.setdefault(FAMILY_OF.get(finding.code, "lint"), []).append(number)
         for family, numbers in families.items():
             numbers.sort(key=lambda number: (-shown[number].severity, number))
-            cut = _fit(numbers, blocks)
-            if cut:
-                left[family] = [shown[number] for number in cut]
+            omitted = _fit(numbers, blocks)
+            if omitted:
+                left[family] = [shown[number] for number in omitted]
     yield from _join(blocks) if style == "full" else chain.from_iterable(blocks)
     short = sum(len(b) == 1 < length for b, length in zip(blocks, lengths, strict=True))
     if short:
         what = "1 finding is" if short == 1 else f"{short} findings are"
         yield f"{what} shown in one line; --all shows all details"
+    long = sum(map(is_cut, shown)) if cut else 0
+    if long:
+        what = "1 message is" if long == 1 else f"{long} messages are"
+        yield f"{what} cut at …; --all shows all names"
     for family, findings in left.items():
         yield (
             f"{len(findings)} more of {family}: {format_severity_counts(findings)}; --all shows "

@@ -15,7 +15,7 @@ from ..errors import XacroError
 from ..suggestions import find_nearest
 from .document import read_included_file
 from .location import SourceFile
-from .packages import Packages, shorten_path
+from .packages import Packages
 from .sandbox import Sandbox
 from .yaml_bounds import MAX_BYTES
 
@@ -90,7 +90,7 @@ class ExpansionFiles:
             XacroError: The description may not read it.
             SourceError: It cannot be read.
         """
-        installed = shorten_path(self._packages.find_installed(path))
+        installed = self._packages.shorten_path(self._packages.find_installed(path))
         if installed not in self._indices:
             self._sandbox.check_file(installed)
             self.files.append(read_included_file(installed, self._packages.workspace))
@@ -106,7 +106,7 @@ class ExpansionFiles:
             OSError: It cannot be read.
         """
         self._sandbox.check_file(path)
-        self._read.add(shorten_path(self._packages.find_installed(path)))
+        self._read.add(self._packages.shorten_path(self._packages.find_installed(path)))
         with self._packages.workspace.open(path) as stream:
             data = stream.read(MAX_BYTES + 1)
         if len(data) > MAX_BYTES:
@@ -192,5 +192,5 @@ class ExpansionFiles:
     def finish(self, included: list[str]) -> list[str]:
         """Return the paths of the included files that were read, each once."""
         find = self._packages.find_installed
-        paths = dict.fromkeys(shorten_path(find(path)) for path in included)
+        paths = dict.fromkeys(self._packages.shorten_path(find(path)) for path in included)
         return [path for path in paths if path in self._indices or path in self._read]

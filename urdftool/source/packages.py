@@ -164,6 +164,7 @@ class Packages:
         """
         self.files = (workspace or Workspace()).restrict(None)
         self.access = FileAccess(self)
+        self._given = "-" if file is None else str(file)
         self.file = Path.cwd() / "-" if file is None else Path(os.path.abspath(file))
         self.named = {name: Path(os.path.abspath(folder)) for name, folder in (named or {}).items()}
         self.paths = [Path(os.path.abspath(folder)) for folder in paths]
@@ -186,6 +187,14 @@ class Packages:
         other._missing, other._near = {}, {}
         other.access = self.access.with_packages(other)
         return other
+
+    def shorten_path(self, path: str | Path) -> str:
+        """Return a path in the style of the description's: absolute, or relative with ``..``."""
+        if os.path.isabs(self._given):
+            return os.path.normpath(path)
+        if self._given.startswith(os.pardir):
+            return os.path.relpath(path)
+        return shorten_path(path)
 
     def make_finder_for(self, path: str | Path) -> Packages:
         """Return a finder for another file of the same robot, which reads what this one reads."""
