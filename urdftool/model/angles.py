@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterable
 
 STEP = math.pi / 12
-"""Angles that people round: multiples of 15° [rad]."""
+"""Angles that people round: multiples of 15° [rad]. Chosen, no source."""
 
 DECIMALS = 4
-"""Decimals of such an angle in published descriptions, at least: 1.5708."""
+"""Decimals of such an angle, at least: 1.5708. Chosen, no source."""
 
 _SAME = 1e-8
 """Difference [rad] below which a computed angle is a multiple of 15°; chosen, no source."""
