@@ -57,8 +57,8 @@ def format_concise(
 
 def is_cut(finding: Finding) -> bool:
     """Tell whether the message of a finding is so long that its list of names is cut."""
-    message = format_message(finding)
-    return _cut(message) != message
+    text = format_message(finding)
+    return len(text) > _LONGEST_MESSAGE and _NAMES.search(text) is not None
 
 
 def format_full(
