@@ -99,7 +99,7 @@ def test_hooks_pass_what_is_right_and_stop_what_is_wrong(repository, write):
     write("arm.urdf.xacro", XACRO.format('<link name="b"/>'))
     done = hook("urdftool-expand-check")
     assert done.returncode == 1
-    assert "arm.urdf: is stale" in done.stdout
+    assert "arm.urdf: is outdated" in done.stdout
 
 
 @real

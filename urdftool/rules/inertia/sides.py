@@ -113,7 +113,7 @@ def left_right_asymmetry(
 
 
 def _are_mirrored_in_root(sides: Sides, link: Link, other: Link) -> bool:
-    """Tell whether two centers of mass are mirror images in the root frame, whatever the frames.
+    """Tell whether two centers of mass are mirror images in the root frame.
 
     The frames may be displaced along the axes of their joints.
     """
