@@ -19,6 +19,7 @@ from .knowledge import MOST_ROBOTS, Knowledge, make_path
 from .words import Word, WordTable
 
 YAML = (".yaml", ".yml")
+_ROBOT = re.compile(rb"""<robot\b[^>]*?\bname\s*=\s*["']([\w.-]+)""")
 _PART = re.compile(r"[^/\s]+")
 
 Read = tuple[Description, Robot]
@@ -59,11 +60,17 @@ def list_files_around(knowledge: Knowledge, description: Description, robot: Rob
 def list_robots_around(knowledge: Knowledge, path: str) -> list[Read]:
     """Return the robots to which an SRDF or YAML file belongs, with each set of arguments.
 
-    Read are at most ``MOST_ROBOTS`` of the workspace, the nearest in its folders first.
+    Read are at most ``MOST_ROBOTS`` of the workspace: first those whose file has the robot name of
+    the SRDF, then the nearest in its folders.
     """
     key, real = ("robots", make_path(path)), make_path(path)
     if key not in knowledge.memo:
-        robots = sorted(knowledge.get_repository(real).robots, key=lambda one: _rank(one, real))
+        found = _ROBOT.search(knowledge.read(real).data)
+        name = found[1] if found else b""
+        robots = sorted(
+            knowledge.get_repository(real).robots,
+            key=lambda one: (name not in knowledge.read(one).data, *_rank(one, real)),
+        )
         knowledge.memo[key] = [
             pair
             for robot in robots[:MOST_ROBOTS]
