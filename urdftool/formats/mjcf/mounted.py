@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from lxml import etree
 
@@ -33,7 +34,7 @@ def put_mounted(robot: Robot, bodies: Bodies) -> None:
     for frame in robot.frames:
         if frame.kind == "body" or frame.name in there or frame.link not in bodies:
             continue
-        site = _build_site(frame)
+        site = _build_site(frame, {} if robot.format == "mjcf" else SITE)
         covered = find_covered(touched[frame.name]) if frame.name in touched else None
         if covered is not None:
             kind, size, _ = covered
@@ -49,8 +50,9 @@ def _put(body: etree._Element, element: etree._Element) -> None:
     body.insert(len(body) if first is None else body.index(first), element)
 
 
-def _build_site(frame: Frame) -> etree._Element:
-    element = etree.Element("site", {"name": frame.name, **SITE})
+def _build_site(frame: Frame, looks: Mapping[str, str]) -> etree._Element:
+    """Build a site; one of an MJCF has the size and group of its source."""
+    element = etree.Element("site", {"name": frame.name, **looks})
     set_pose(element, make_pose(frame.origin))
     return element
 
