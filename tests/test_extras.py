@@ -68,7 +68,8 @@ def test_each_optional_library_is_in_its_extra():
     for library, extra in extras.EXTRA_OF.items():
         name = extras.DISTRIBUTION_OF.get(library, library).lower()
         assert name in installed_by(extra), library
-        assert extra in ("dask", "usd-verify", "robots") or name in installed_by("all"), library
+        left_out = extra in ("dask", "usd-verify", "robots") or library == "pybullet"
+        assert left_out or name in installed_by("all"), library
 
 
 def test_the_core_is_what_is_imported_without_an_extra():

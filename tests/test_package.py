@@ -80,9 +80,16 @@ def test_its_readme_leads_to_the_site(wheel):
             assert (ROOT / "docs/pictures" / picture[1]).exists(), link
 
 
-def test_the_sdist_can_be_tested(built):
+def test_the_sdist_has_what_a_wheel_is_built_of(built, tmp_path):
     (path,) = built.glob("*.tar.gz")
     with tarfile.open(path) as archive:
-        names = {name.partition("/")[2] for name in archive.getnames()}
-    assert {"pyproject.toml", "README.md", "LICENSE", "tests/conftest.py", "docs/index.md"} <= names
-    assert not [name for name in names if name.startswith((".git/", "build/", ".venv/"))]
+        archive.extractall(tmp_path, filter="data")
+    (folder,) = tmp_path.iterdir()
+    kept = {"pyproject.toml", "README.md", "LICENSE", "CHANGELOG.md", "SECURITY.md", "PKG-INFO"}
+    parts = {"urdftool", "docs", "skills", "hatch_build.py", ".gitignore"}
+    assert {part.name for part in folder.iterdir()} == kept | parts
+    again = tmp_path / "again"
+    words = ["-m", "hatchling", "build", "-t", "wheel", "-d", str(again)]
+    subprocess.run([sys.executable, *words], cwd=folder, check=True, capture_output=True)
+    one, other = (zipfile.ZipFile(*place.glob("*.whl")) for place in (built, again))
+    assert sorted(one.namelist()) == sorted(other.namelist())
