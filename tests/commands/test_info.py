@@ -137,3 +137,19 @@ def test_to_a_file_and_not_over_the_input(urdftool, write, tmp_path):
     assert urdftool("info", path, "-o", "info.txt").code == 0
     assert (tmp_path / "info.txt").read_text().startswith("robot ")
     assert urdftool("info", path, "-o", path).code == 2
+
+
+def test_many_sensors_of_a_type_are_one_line(urdftool, write):
+    joints = [f"j{n}" for n in range(9)]
+    links = "".join(
+        f'<gazebo reference="a"><sensor name="{name}" type="contact"/></gazebo>' for name in joints
+    )
+    path = write(
+        "r.urdf",
+        f'<robot name="r"><link name="a"/>{links}'
+        '<gazebo reference="a"><sensor name="one" type="imu"/></gazebo></robot>',
+    )
+    text = urdftool("info", path).out
+    assert "9 contact on a" in text
+    assert "one (imu) on a" in text
+    assert "j3 (contact)" not in text

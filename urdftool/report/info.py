@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -71,7 +72,7 @@ def _list_rows(robot: Robot, counts: Counts, measured: Measured) -> Iterator[tup
             f"{escape_controls(name)}  {'not found' if folder is None else _format_short(folder)}",
         )
     yield from (("plugins", line) for line in _format_named(counts.plugins))
-    yield from (("sensors", line) for line in _format_named(counts.sensors))
+    yield from (("sensors", line) for line in _format_sensors(counts.sensors))
     yield from (("ros2_control", line) for line in _format_named(counts.hardware))
     if counts.transmissions:
         yield "transmissions", _format_listed(counts.transmissions)
@@ -100,6 +101,16 @@ def _format_named(things: Iterable[Named]) -> Iterator[str]:
         on = f" on {escape_controls(thing.on)}" if thing.on is not None else ""
         what = f" ({escape_controls(thing.what)})" if thing.what else ""
         yield f"{escape_controls(thing.name) or 'no name'}{what}{on}"
+
+
+def _format_sensors(sensors: Sequence[Named]) -> Iterator[str]:
+    """Yield a line for each sensor, or for each type with more of them than a line lists."""
+    count = Counter(sensor.what for sensor in sensors)
+    many = dict.fromkeys(sensor.what for sensor in sensors if count[sensor.what] > _MOST)
+    for kind in many:
+        names = [one.on or one.name for one in sensors if one.what == kind]
+        yield f"{count[kind]} {escape_controls(kind)} on {_format_listed(list(dict.fromkeys(names)))}"
+    yield from _format_named(sensor for sensor in sensors if sensor.what not in many)
 
 
 def _format_listed(names: list[str]) -> str:
