@@ -108,8 +108,8 @@ def _format_sensors(sensors: Sequence[Named]) -> Iterator[str]:
     count = Counter(sensor.what for sensor in sensors)
     many = dict.fromkeys(sensor.what for sensor in sensors if count[sensor.what] > _MOST)
     for kind in many:
-        names = [one.on or one.name for one in sensors if one.what == kind]
-        yield f"{count[kind]} {escape_controls(kind)} on {_format_listed(list(dict.fromkeys(names)))}"
+        names = dict.fromkeys(one.on or one.name for one in sensors if one.what == kind)
+        yield f"{count[kind]} {escape_controls(kind)} on {_format_listed(list(names))}"
     yield from _format_named(sensor for sensor in sensors if sensor.what not in many)
 
 
