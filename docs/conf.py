@@ -45,6 +45,7 @@ MENU = {
         *(f"measurements/{name}" for name in ("lint-precision", "robustness", "simulate-robots")),
         *(f"measurements/{name}" for name in ("collision", "inertia-vendors", "vendors")),
         *(f"measurements/{name}" for name in ("srdf-vendors", "srdf-numbers", "edits", "server")),
+        "upstream",
     ),
     "Development": ("architecture", "contributing"),
 }

@@ -55,17 +55,17 @@ CASES = {
     "two colors of one name in visuals": (
         link(material(RED), material(BLUE)),
         link(material(RED), material(RED)),
-        "with another color, which the visual gets",
+        "material 'm' is defined with another color in line 1, which the visual gets",
     ),
     "a color on the robot and another in a visual": (
         material(RED) + link(material(BLUE)),
         material(RED) + link(material(RED)),
-        "with another color, which the visual gets",
+        "material 'm' is defined with another color in line 1, which the visual gets",
     ),
     "two colors of one name on the robot": (
         material(RED) + material(BLUE) + link('<material name="m"/>'),
         material(RED) + link('<material name="m"/>'),
-        "material 'm' is defined before with another color: it is left out",
+        "material 'm' is defined with another color in line 1: it is left out",
     ),
     "a material that is never defined": (
         link('<material name="m"/>'),
@@ -183,8 +183,8 @@ def test_drake_loads_it(content):
 def test_the_bundle_says_what_was_changed(urdftool, write, tmp_path):
     write("r.urdf", f'<robot name="r">{link(material(RED), material(BLUE))}</robot>')
     done = urdftool("bundle", "r.urdf", "-o", "out", "--for", "drake")
-    assert "r.urdf:1:190: warning: material 'm' is defined before" in done.err
+    assert "r.urdf:1:190: warning: material 'm' is defined with" in done.err
     assert "[adapted-for-drake]" in done.err
     assert (tmp_path / "out" / "r.urdf").read_text().count('rgba="1 0 0 1"') == 2
-    assert "defined before with another color" in (tmp_path / "out" / "bundle.json").read_text()
+    assert "defined with another color" in (tmp_path / "out" / "bundle.json").read_text()
     assert "adapted" not in urdftool("bundle", "r.urdf", "-o", "plain").err

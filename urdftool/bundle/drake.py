@@ -64,7 +64,7 @@ def _change_materials(source: Source) -> Iterator[Change]:
             text = f"{what if name else 'a material of the robot has no name'}: it is left out"
             yield remove_element(source, material), _report(material, text)
         elif material is not defined[name] and not _is_equal(material, defined[name]):
-            text = f"material '{name}' is defined before with another color: it is left out"
+            text = f"{_describe_conflict(defined[name])}: it is left out"
             yield remove_element(source, material), _report(material, text)
     used: set[str] = {_get_name(material) for material in on_robot}
     for material in in_visuals:
@@ -89,10 +89,15 @@ def _change_use(
         return
     copy = source.file.data[known.start : known.end]
     if has_content:
-        text = f"material '{name}' is defined before with another color, which the visual gets"
+        text = f"{_describe_conflict(known)}, which the visual gets"
     else:
         text = f"material '{name}' is defined below its first use: its definition is copied there"
     yield Edit(material.start, material.end, copy), _report(material, text)
+
+
+def _describe_conflict(known: Element) -> str:
+    line, _ = known.file.position(known.start)
+    return f"material '{_get_name(known)}' is defined with another color in line {line}"
 
 
 def _get_name(element: Element) -> str:
