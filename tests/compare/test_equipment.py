@@ -108,3 +108,12 @@ def test_elements_of_two_sdf(tmp_path, old, new, expected):
 def test_an_element_in_another_link_of_the_same_body_is_equal(tmp_path):
     moved = SDF.format("").replace("<battery", BEAM.replace("0 .1 0", "0 .1 .5") + "<battery")
     assert compare(tmp_path, SDF.format(BEAM), moved, ".sdf").is_equal
+
+
+@pytest.mark.library("mujoco")
+def test_the_place_of_an_effort_is_that_of_its_motor(tmp_path):
+    motor = MJCF.replace('<position name="servo" joint="j" kp="10"/>',
+                         '<motor joint="j" ctrlrange="-1 1" gear="30"/>')  # fmt: skip
+    comparison = compare(tmp_path, motor, motor.replace('"30"', '"40"'), ".xml")
+    (effort,) = [d for d in comparison.differences if d.what == "limit of effort"]
+    assert [place.line for place in effort.places] == [4, 4]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..mechanics.reference import Array
-from ..model.elements import BALL_TYPES, Joint, Limit
+from ..model.elements import BALL_TYPES, Joint, Limit, Robot
 from ..model.kinematics import get_limits
 from ..model.part import Part
 from .bodies import HINGES, compute_axis
@@ -110,17 +110,24 @@ def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comp
             comparison.record_not_comparable(f"limit of {what}: not in every MJCF")
             continue
         x, y = limits
+        values = _show(x), _show(y)
+        places: tuple[Part | None, Part | None] = parts
+        if what == "effort":
+            places = _find_bounding_part(pair.a.robot, one), _find_bounding_part(pair.b.robot, two)
         _add(
-            comparison,
-            match,
-            "limits",
-            f"limit of {what}",
-            (_show(x), _show(y)),
-            unit,
-            measure(x, y),
-            "",
-            parts,
+            comparison, match, "limits", f"limit of {what}", values, unit, measure(x, y), "", places
         )
+
+
+def _find_bounding_part(robot: Robot, joint: Joint) -> Part | None:
+    """Return what bounds the effort of a joint: its only actuator with that bound, or its limit."""
+    own = [actuator for actuator in robot.joint_actuators if actuator.joint == joint.name]
+    effort = None if joint.limit is None else joint.limit.effort
+    if len(own) != 1 or effort is None:
+        return joint.limit
+    ranges = (own[0].force_range, 1.0), (own[0].control_range, abs(own[0].gain))
+    bounds = [abs(own[0].gear) * factor * max(map(abs, one)) for one, factor in ranges if one]
+    return own[0] if any(math.isclose(bound, effort) for bound in bounds) else joint.limit
 
 
 def _is_unknown(pair: Pair, match: JointMatch, what: str) -> bool:

@@ -84,7 +84,7 @@ def format_text(paths: Sequence[str], agreement: Agreement) -> str:
         if chosen:
             title = "Conventions that differ, with the same motion and mass:" if convention else ""
             text += f"\n{title}\n" if title else "\n"
-            groups = _group(chosen)
+            groups = sorted(_group(chosen), key=lambda group: len(group) > 1)  # single ones first
             text += "".join(_format_group(group) for group in groups[:_SHOWN])
             if len(groups) > _SHOWN:
                 count = sum(map(len, groups[_SHOWN:]))
@@ -199,6 +199,10 @@ def summarize(paths: Sequence[str], agreement: Agreement, totals: Sequence[int])
         verdict = "equal in every compared property" if has_compared else "nothing was compared"
         return f"{robots}: {verdict}{rest}"
     text = f"{robots}: {format_count(len(entries), 'difference')}"
+    for number, path in enumerate(paths):
+        count = sum(entry.alone == number for entry in entries)
+        if count:
+            text += f"; {LETTERS[number]} is alone in {count}, which to correct in {path}"
     for (i, j), comparison in agreement.pairs.items():
         most = max(totals[i], totals[j])
         if 2 * len(comparison.joints) < most:
