@@ -1,5 +1,6 @@
 """The server with editors, documents and processes that do not behave."""
 
+import asyncio
 import os
 import signal
 import subprocess
@@ -11,6 +12,7 @@ import pytest
 from tests.server.client import Client
 from tests.server.test_half_typed import Editor
 from urdftool.server.answer_stream import AnswerStream
+from urdftool.server.worker_process import WorkerProcess
 
 STUCK = """
 import os, sys
@@ -84,3 +86,32 @@ def test_questions_are_answered_after_the_checking_process_was_killed(path):
         assert "link **a**" in found["contents"]["value"]
         client.change(path, text=URDF.replace("0 1 1", "0 1 2"))
         assert any(one["code"] == "axis-not-unit" for one in client.settle(path))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads the children of a process in /proc")
+def test_a_checking_process_that_hangs_is_ended(path):
+    reports = []
+    outline = {"path": str(path)}
+
+    async def ask_until_answered(worker):
+        while not (found := await worker.ask("symbols", outline)):  # a busy machine is slow, too
+            await asyncio.sleep(0.1)
+        return found
+
+    async def run():
+        others = set(list_children(os.getpid()))
+        worker = WorkerProcess(reports.append, patience=2.0)
+        worker.set_document(str(path), URDF)
+        await ask_until_answered(worker)
+        starts = worker.starts
+        for child in set(list_children(os.getpid())) - others:
+            os.kill(child, signal.SIGSTOP)
+        assert await worker.ask("symbols", outline) is None
+        assert await ask_until_answered(worker)
+        assert worker.starts > starts
+        worker.kill()
+        while len(asyncio.all_tasks()) > 1:
+            await asyncio.sleep(0.05)
+
+    asyncio.run(run())
+    assert "a check took longer than 2 s and was ended" in reports
