@@ -43,7 +43,7 @@ FAULTS = {
     "rpy-in-degrees": (
         "origin",
         "<origin{}rpy={q}90 0 0{q}{}/>",
-        "<origin{}rpy={q}1.57079633 0 0{q}{}/>",
+        "<origin{}rpy={q}1.5708 0 0{q}{}/>",
     ),
     "padded-reference": ("parent", "<parent{}link={q}base {q}{}/>", "<parent{}link={q}base{q}{}/>"),
     "not-a-number": (
