@@ -19,8 +19,15 @@ if TYPE_CHECKING:
 
 _ON = ("moveit",)
 
-BOXES = 1000
-"""Boxes for each two bodies in lint, which is to be fast; chosen, no source."""
+BOXES, ALL_BOXES, FEWEST = 1000, 3000, 10
+"""Boxes for each two bodies in lint and for all of them, which takes seconds, and the least for two;
+chosen, no source.
+"""
+
+
+def _choose_boxes(pairs: int) -> int:
+    """Return the boxes for each of a number of pairs."""
+    return min(BOXES, max(FEWEST, ALL_BOXES // pairs))
 
 
 def _judge_disabled(robot: Robot, description: Description) -> list[Judgement]:
@@ -33,7 +40,8 @@ def _judge_disabled(robot: Robot, description: Description) -> list[Judgement]:
         pairs = frozenset(pair.links for content in contents for pair in content.disabled)
         if not pairs:
             return []
-        options = Options(boxes=BOXES, jobs=1, only=pairs, search=False)
+        boxes = _choose_boxes(len(pairs))
+        options = Options(boxes=boxes, jobs=1, only=pairs, search=False)
         verdicts = decide(robot, options)
         return [found for content in contents for found in judge(content, robot, verdicts)]
 
@@ -54,8 +62,9 @@ def disabled_pair_can_touch(robot: Robot, description: Description) -> Iterator[
     message has joint positions within the limits at which the collision geometry of both is in
     contact. MoveIt's Setup Assistant disables pairs that it never saw in contact at random poses.
     Pairs with the reason ``User``, ``Default`` or ``Always`` are intended. Links that are disabled
-    as ``Adjacent`` without a common joint are findings of adjacent-through-bare-link. Requires
-    python-fcl.
+    as ``Adjacent`` without a common joint are findings of adjacent-through-bare-link. Of a robot
+    with many pairs, each is searched for a short time; ``urdftool srdf --check`` searches longer.
+    Requires python-fcl.
     """
     from ...srdf.content import format_positions
     from ...srdf.existing import REFUTED
