@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _ON = ("moveit",)
 
 BOXES, ALL_BOXES, FEWEST = 1000, 3000, 10
-"""Boxes for each two bodies in lint and for all of them, which takes seconds, and the least for two;
+"""Boxes for each two bodies in lint, for all of them, which takes seconds, and at least for two;
 chosen, no source.
 """
 
