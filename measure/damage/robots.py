@@ -37,7 +37,7 @@ EXAMPLES = (
     "xarm_description/urdf/xarm7.urdf",
     "z1_description/urdf/z1.urdf",
 )
-SHORT = ("laikago_toes_zup", "z1")
+SHORT = ("z1",)
 """Those of the short form."""
 
 

@@ -24,7 +24,7 @@ def boxes(*placed):
     return prepare(corners, np.arange(len(corners)).reshape(-1, 3))
 
 
-@pytest.mark.parametrize("cell", [COARSE, FINE])
+@pytest.mark.parametrize("cell", [COARSE, pytest.param(FINE, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("size", SIZES)
 def test_the_volume_of_the_closing_of_a_box(size, cell):
     rotation = turned(np.random.default_rng(1))

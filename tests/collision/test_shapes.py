@@ -20,8 +20,10 @@ from urdftool.geometry.topology import find_edges
     [
         ("box", 0.0),
         ("cylinder", 0.002),
-        ("sphere", 0.002),
-        *(pytest.param(kind, 0.002, marks=pytest.mark.slow) for kind in ("box", "capsule")),
+        *(
+            pytest.param(kind, 0.002, marks=pytest.mark.slow)
+            for kind in ("box", "capsule", "sphere")
+        ),
     ],
 )
 def test_auto_finds_the_primitive_again(kind, noise):

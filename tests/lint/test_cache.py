@@ -374,7 +374,10 @@ OTHERS = (
 )
 
 
-@pytest.mark.parametrize("style", ["full", "json", "sarif", "html"])
+@pytest.mark.parametrize(
+    "style",
+    ["json", *(pytest.param(one, marks=pytest.mark.slow) for one in ("full", "sarif", "html"))],
+)
 def test_an_entry_with_any_wrong_value_is_no_crash(lint, write, style):
     """An entry of the right types is believed: its digest has no key."""
     path = write(

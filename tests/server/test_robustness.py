@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
@@ -39,7 +40,9 @@ def test_answers_are_kept_in_order_until_they_are_read():
         found += os.read(source, 1 << 20)
     assert found == b"".join(parts)
     stream.close()
+    assert not any(thread is stream._thread for thread in threading.enumerate())
     os.close(source)
+    os.close(target)
 
 
 def test_a_process_ends_when_its_answers_are_not_read():

@@ -30,6 +30,7 @@ class AnswerStream:
         self._descriptor, self._limit = descriptor, limit
         self._parts: deque[bytes] = deque()
         self._unsent = 0
+        self._is_closed = False
         self._changed = threading.Condition()
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
@@ -49,14 +50,18 @@ class AnswerStream:
         """Return immediately; the thread writes."""
 
     def close(self) -> None:
-        """Wait until all is written, for a limited time."""
+        """Wait until all is written, for a limited time; the thread ends."""
         with self._changed:
-            self._changed.wait_for(lambda: not self._unsent, _PATIENCE)
+            self._is_closed = True
+            self._changed.notify_all()
+        self._thread.join(_PATIENCE)
 
     def _run(self) -> None:
         while True:
             with self._changed:
-                self._changed.wait_for(lambda: self._parts)
+                self._changed.wait_for(lambda: self._parts or self._is_closed)
+                if not self._parts:
+                    return
                 data = self._parts.popleft()
             try:
                 _write_all(self._descriptor, data)
