@@ -63,3 +63,19 @@ def test_a_missing_mesh_is_refused(urdftool, write, tmp_path):
     assert result.code == 2
     assert "[mesh-not-found]" in result.err
     assert not (tmp_path / "out").exists()
+
+
+TENDON = """<mujoco model="m"><worldbody><body name="a"><joint name="j"/><geom size=".1"/>
+</body></worldbody><tendon><fixed name="t"><joint joint="j" coef="1"/></fixed></tendon>
+<actuator><motor name="pull" tendon="t"/></actuator></mujoco>"""
+
+
+@pytest.mark.library("mujoco")
+def test_its_own_format_is_made_of_the_original(urdftool, write, tmp_path):
+    write("a.xml", TENDON)
+    assert urdftool("bundle", "a.xml", "-o", "out", "--format", "mjcf", "--check").code == 0
+    (made,) = (tmp_path / "out").glob("*.xml")
+    differing = api.verify(tmp_path / "a.xml", made).list_disagreements()
+    assert [(one.row, one.name) for one in differing] == [("configurations", "home")]  # added
+    assert 'tendon="t"' in made.read_text()
+    assert (tmp_path / "out" / "m.urdf").is_file()

@@ -45,7 +45,12 @@ def add_srdf(bundle: Bundle, robot: Robot, path: Path) -> None:
 
 
 def add_formats(
-    bundle: Bundle, formats: Sequence[str], *, force: bool = False, srdf: Path | None = None
+    bundle: Bundle,
+    formats: Sequence[str],
+    *,
+    force: bool = False,
+    srdf: Path | None = None,
+    original: Robot | None = None,
 ) -> None:
     """Add the robot of a bundle in other formats; the losses of the exports become notes.
 
@@ -54,6 +59,8 @@ def add_formats(
         formats: Names in ``FORMATS``.
         force: Whether to continue past errors if a robot remains.
         srdf: An SRDF, for the contact exclusions and the home position of MJCF.
+        original: The robot in another format, of which the URDF was made. It is exported to that
+            format, in which nothing is lost, in place of the URDF.
 
     Raises:
         Refused: The robot has defects that prevent an export.
@@ -79,7 +86,9 @@ def add_formats(
         for file in robot.source.files:
             file.path = bundle.description
         for other in others:
-            _add_format(bundle, robot, staged, other, force, srdf)
+            has_it = original is not None and original.format == other
+            source = original if has_it and original is not None else robot
+            _add_format(bundle, source, staged, other, force, srdf)
     bundle.manifest.options["format"] = ["urdf", *others]
     add_manifest(bundle)
 

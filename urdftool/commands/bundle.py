@@ -153,7 +153,8 @@ def command(
 
                 if srdf is not None:
                     add_srdf(bundle, model, srdf)
-                add_formats(bundle, formats, force=options.force, srdf=srdf)
+                force = options.force
+                add_formats(bundle, formats, force=force, srdf=srdf, original=original)
         except Refused as refused:
             if as_json:
                 _print_json(None, {}, refused.findings, None)
