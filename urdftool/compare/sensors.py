@@ -16,13 +16,14 @@ import numpy as np
 from ..mechanics.reference import Array, get_origin_matrix, turn
 from ..model.elements import Robot
 from ..model.mechanism import Camera, MountedSensor
+from ..model.numbers import describe_content
 from ..model.sensors import KINDS, MAX_RAYS, get_kind, get_sensor_row
 from ..model.settings import Settings, Value, get_number
 from .difference import EXISTENCE, Comparison, Difference
 from .frames import describe_motion, describe_pose, measure_largest
 from .origins import find_least_offset
 from .pair import Match, Pair, add_presence, locate
-from .settings import format_content, measure_content
+from .settings import measure_content
 
 _ROW = "sensors"
 _ELEMENTARY = frozenset(tag for kind in KINDS for tag, _ in kind.mjcf)
@@ -275,7 +276,7 @@ def _compare_parameter(name: str, one: _Sensor, two: _Sensor, add: Callable[...,
         if _shorten(x) == _shorten(y):
             return
     amount = measure_content(x, y)
-    values = format_content(x), format_content(y)
+    values = describe_content(x), describe_content(y)
     add(name.replace("/", " "), values, amount if amount > _NUMBERS else 0.0, unit=row.unit)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from ..model.numbers import number
+from ..model.numbers import describe_content, number
 from ..model.part import Part
 from ..model.settings import (
     ALL_OF_JOINTS,
@@ -137,7 +137,7 @@ def compare_settings(
             continue
         places = locate(parts[0], owners[0]), locate(parts[1], owners[1])
         amount = measure_content(x, y)
-        values: tuple[object, object] = format_content(x), format_content(y)
+        values: tuple[object, object] = describe_content(x), describe_content(y)
         comparison.add(Difference(row, kind, names, what, values, setting.unit, amount, places))
 
 
@@ -169,10 +169,3 @@ def measure_text(x: str, y: str) -> float:
     return max(
         math.inf if a is None or b is None else measure(a, b) for a, b in zip(one, two, strict=True)
     )
-
-
-def format_content(content: Content) -> object:
-    """Return a number; another value as text."""
-    if isinstance(content, tuple):
-        return " ".join(f"{part:g}" for part in content)
-    return str(content).lower() if isinstance(content, bool) else content

@@ -1,4 +1,4 @@
-"""Numbers in URDF syntax."""
+"""Numbers in URDF syntax, and values of settings as text."""
 
 from __future__ import annotations
 
@@ -28,3 +28,10 @@ def parse_numbers(text: str | None, count: int) -> tuple[float, ...] | None:
     except ValueError:
         return None
     return values if all(map(math.isfinite, values)) and "_" not in text else None
+
+
+def describe_content(content: bool | str | float | tuple[float, ...]) -> str | float:
+    """Return a number; a flag, word or vector as text."""
+    if isinstance(content, tuple):
+        return " ".join(f"{part:g}" for part in content)
+    return str(content).lower() if isinstance(content, bool) else content

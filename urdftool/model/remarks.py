@@ -9,7 +9,8 @@ from ..source.location import Place
 from .block_elements import list_dangling_blocks
 from .elements import Robot
 from .materials import resolve_material
-from .settings import Content, Settings
+from .numbers import describe_content
+from .settings import Settings
 
 
 class Remark(NamedTuple):
@@ -52,7 +53,9 @@ def _list_repeated(robot: Robot) -> Iterator[Remark]:
             if value.earlier and value.place not in known:
                 known.add(value.place)
                 text = f"{kind} '{name}': {value.tag} is set several times; "
-                text += f"{_format(value.content)} counts, as in Gazebo"
+                shown = describe_content(value.content)
+                shown = f"{shown:g}" if isinstance(shown, float) else shown
+                text += f"{shown} counts, as in Gazebo"
                 yield Remark("repeated-setting", value.place, kind, name, text)
 
 
@@ -62,13 +65,6 @@ def _list_settings(robot: Robot) -> Iterator[tuple[str, str, Settings]]:
         yield "link", link.name, {**link.surface, **link.settings}
     for joint in robot.joints:
         yield "joint", joint.name, joint.settings
-
-
-def _format(content: Content) -> str:
-    """Return a value as text."""
-    if isinstance(content, tuple):
-        return " ".join(f"{part:g}" for part in content)
-    return str(content).lower() if isinstance(content, bool | str) else f"{content:g}"
 
 
 def _list_undefined(robot: Robot) -> Iterator[Remark]:

@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from ...model.settings import Content
+
 DIGITS = 10
 """Maximum number of significant digits of a number that a person wrote."""
 
@@ -49,3 +51,10 @@ def format_numbers_text(values: Iterable[float]) -> str:
 def format_pose_text(values: Iterable[float]) -> str:
     """Format positions [m] and angles [rad], separated by blanks; rounding errors of 0 are 0."""
     return " ".join("0" if abs(value) < NOTHING else number_text(value) for value in values)
+
+
+def format_content(content: Content) -> str:
+    """Return the text of a setting's value: of a flag, a word, a number or a vector."""
+    if isinstance(content, bool | str):
+        return str(content).lower() if isinstance(content, bool) else content
+    return format_numbers_text(content) if isinstance(content, tuple) else number_text(content)

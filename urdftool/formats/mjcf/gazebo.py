@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from ...diagnostic import Severity
 from ...model.blocks import list_elements
 from ...model.elements import Collision, GazeboExtension, Link, Robot
-from ...model.settings import SURFACE_OF_MUJOCO, Content, Setting, Settings, get_number
+from ...model.settings import SURFACE_OF_MUJOCO, Setting, Settings, get_number
 from ...source.document import Element
-from ..common.numbers import format_numbers_text, number_text
+from ..common.numbers import format_content, format_numbers_text
 from ..common.unexpressed import report_unwritten_settings
 from ..written import Written
 
@@ -73,18 +73,10 @@ def get_surface_attributes(collision: Collision) -> dict[str, str]:
 def get_attributes(settings: Settings, rows: Iterable[Setting]) -> dict[str, str]:
     """Return the attributes of MJCF for settings, by name."""
     return {
-        row.mjcf.partition(" ")[2]: _format(settings[row.name].content)
+        row.mjcf.partition(" ")[2]: format_content(settings[row.name].content)
         for row in rows
         if row.name in settings
     }
-
-
-def _format(content: Content) -> str:
-    if isinstance(content, bool):
-        return "true" if content else "false"
-    if isinstance(content, str):
-        return content
-    return format_numbers_text(content) if isinstance(content, tuple) else number_text(content)
 
 
 def report_surface_losses(link: Link, written: Written) -> None:

@@ -12,11 +12,10 @@ from ...model.settings import (
     LUMPING_TAGS,
     OF_JOINTS,
     OF_LINKS,
-    Content,
     Setting,
     Value,
 )
-from ..common.numbers import format_numbers_text, number_text
+from ..common.numbers import format_content
 from .body_sensors import is_body_sensor
 from .copied_elements import copy_raw_element, remove_invalid
 from .plugins import add_plugin
@@ -37,13 +36,6 @@ def write_settings(node: Node, settings: Mapping[str, Value], rows: Iterable[Set
             text = format_content(settings[row.name].content)
             for path in filter(None, (row.path, row.also)):
                 get_or_create(node, path).text = text
-
-
-def format_content(content: Content) -> str:
-    """Return the text of a value."""
-    if isinstance(content, bool | str):
-        return str(content).lower() if isinstance(content, bool) else content
-    return format_numbers_text(content) if isinstance(content, tuple) else number_text(content)
 
 
 def merge_elements(node: Node, t: Translation, link: Link, tag: str) -> None:

@@ -7,7 +7,8 @@ from dataclasses import replace
 from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere, Visual
 from ...model.pose import Pose, make_pose, rpy_from_rotation
 from ...model.settings import SURFACE
-from .extensions import format_content, link_extensions, merge_elements, write_settings
+from ..common.numbers import format_content
+from .extensions import link_extensions, merge_elements, write_settings
 from .frames import place
 from .gltf import undo_axis_conversion
 from .inertials import add_inertial

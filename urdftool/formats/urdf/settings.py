@@ -8,9 +8,9 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Joint, Link, Robot
-from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Content, Setting, Settings
-from ..common.numbers import number_text
-from .translation import Translation, add, format_numbers
+from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Setting, Settings
+from ..common.numbers import format_content
+from .translation import Translation, add
 
 _WITH_SPRING = ("revolute", "continuous", "prismatic")
 
@@ -69,13 +69,13 @@ def _add_block(
             continue
         content = chosen[row.name]
         if row.opposite:
-            add(node, row.opposite, _format(not content))
+            add(node, row.opposite, format_content(not content))
         elif row.tags and (not row.name.endswith("_decay") or len(decay) == 1):
             if node.find(row.tags[0]) is None:
-                add(node, row.tags[0], _format(content))
+                add(node, row.tags[0], format_content(content))
         else:
             prefix = "collision/" if rows is SURFACE else ""
-            _get_or_create(node, prefix + row.path).text = _format(content)
+            _get_or_create(node, prefix + row.path).text = format_content(content)
     springs = [key for key in chosen if key.startswith("spring")]
     code, what = (
         ("gazebo-spring", "springs") if springs else ("gazebo-settings", "settings of links")
@@ -90,12 +90,6 @@ def _add_block(
         name=part.name,
         severity=Severity.INFO,
     )
-
-
-def _format(content: Content) -> str:
-    if isinstance(content, bool | str):
-        return str(content).lower() if isinstance(content, bool) else content
-    return format_numbers(*content) if isinstance(content, tuple) else number_text(content)
 
 
 def _get_or_create(node: etree._Element, path: str) -> etree._Element:
