@@ -1,5 +1,7 @@
 """Findings of packages of PyPI that were noise or wrong, by their causes, with counter-cases."""
 
+from pathlib import Path
+
 import pytest
 import trimesh
 
@@ -194,3 +196,59 @@ def test_the_argument_that_a_robot_needs_is_named(tmp_path, name, inside, advice
     path.write_text(ROOT.format(name, inside), "utf-8")
     messages = [finding.message for finding in check(path)]
     assert any(advice in message for message in messages), messages
+
+
+BOX = '<{0}><geometry><box size="{1}"/></geometry></{0}>'
+
+
+@pytest.mark.parametrize(("shape", "count"), [("0.2 0.2 0.2", 0), ("0.2 0.2 0.05", 1)])
+def test_a_rail_inside_of_what_slides_on_it_needs_no_collision(tmp_path, shape, count):
+    cart = BOX.format("visual", shape) + BOX.format("collision", shape)
+    parts = [LINK.format("rail", BOX.format("visual", "2 0.1 0.1")), LINK.format("cart", cart)]
+    joint = JOINT.format("slide", "prismatic", "rail", "cart", '<origin xyz="0 0 0.07"/>' * count)
+    assert len(find(tmp_path, "missing-collision", *parts, joint)) == count
+
+
+@pytest.mark.parametrize(("targets", "count"), [((), 1), (("mujoco",), 0), (("pybullet",), 0)])
+def test_the_mass_of_a_rail_that_is_fixed_to_the_world_matters_to_gazebo(tmp_path, targets, count):
+    parts = [LINK.format("world", ""), LINK.format("rail", BOX.format("collision", "1 1 1"))]
+    parts.append(JOINT.format("j", "fixed", "world", "rail", ""))
+    (tmp_path / "r.urdf").write_text(f'<robot name="r">{"".join(parts)}</robot>', "utf-8")
+    found = check(tmp_path / "r.urdf", select=["missing-inertial"], targets=targets)
+    effects = [{"gz, gazebo-classic": "load nothing: a model must have at least one link"}]
+    assert [finding.effects for finding in found] == effects * count
+
+
+@pytest.mark.parametrize(("plugin", "count"), [("gz-sim-yarp-controlboard", 0), ("gz-sim-x", 1)])
+def test_sensors_of_a_robot_that_uses_yarp_need_no_frame_of_tf(tmp_path, plugin, count):
+    parts = [
+        LINK.format("head", BODY.format(mass=1, moment=0.01)),
+        f'<gazebo><plugin name="gz::sim" filename="{plugin}-system"/></gazebo>',
+        '<gazebo reference="head"><sensor name="imu" type="imu"/></gazebo>',
+    ]
+    assert len(find(tmp_path, "missing-gz-frame-id", *parts)) == count
+
+
+def test_the_center_of_mass_waits_for_the_inertia_that_lacks(tmp_path):
+    inertial = '<inertial><mass value="1"/></inertial>'
+    shape = '<visual><origin xyz="0.2 0 0"/><geometry><box size="0.2 0.1 0.1"/></geometry></visual>'
+    parts = [LINK.format("base", BODY.format(mass=1, moment=0.01)), LINK.format("a", inertial)]
+    parts[1] = parts[1].replace("</link>", f"{shape}</link>")
+    joint = JOINT.format("j", "continuous", "base", "a", "")
+    (tmp_path / "r.urdf").write_text(f'<robot name="r">{"".join(parts)}{joint}</robot>', "utf-8")
+    codes = {finding.code for finding in check(tmp_path / "r.urdf")}
+    assert "incomplete-inertial" in codes
+    assert "inertial-not-at-com-suspect" not in codes
+
+
+@pytest.mark.parametrize(("folder", "names"), [("$(arg dir)", {"top"}), ("parts", {"top", "tool"})])
+def test_a_urdf_file_that_uses_arguments_of_another_is_its_part(tmp_path, folder, names):
+    include = f'<link name="a"/><xacro:include filename="{folder}/main.xacro"/>'
+    (tmp_path / "top.xacro").write_text(ROOT.format("top", include), "utf-8")
+    tool = LINK.format("b", f"<visual><geometry>{MESH.format('$(arg dir)')}</geometry></visual>")
+    (tmp_path / "tool.urdf").write_text(f'<robot name="tool">{tool}</robot>', "utf-8")
+    found = find_robots([str(tmp_path)], workspace=Workspace())
+    assert {Path(robot.path).stem for robot in found.robots.values()} == names
+
+
+MESH = '<mesh filename="{}/a.stl"/>'

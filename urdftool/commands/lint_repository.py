@@ -94,10 +94,13 @@ def print_list(files: Sequence[str], found: Repository) -> None:
             lines.append(f"  includes {found.paths.get(other, other)}")
         if found.list_files(real) & found.computes:
             lines.append("  includes files by computed names, which are not listed")
-    belonging = {file for real in found.robots for file in found.list_files(real)}
+    belonging = {file for real in found.robots for file in found.list_files(real)} | found.parts
     others = [path for real, path in found.paths.items() if real not in belonging | shown]
     lines += [f"{path}  (no robot includes it)" for path in sorted(others)]
     click.echo("".join(f"{line}\n" for line in lines), nl=False)
+    parts = sorted(found.paths[real] for real in found.parts - shown)
+    for path in parts:
+        click.echo(f"{path}  (a part: it uses arguments that it does not declare)")
     _print_unknown(found)
 
 
@@ -115,7 +118,7 @@ def summarize_robots(found: Repository, options: Options, reports: Collection[Re
     missing = [report.path for report in reports if report.not_checked or report.unexpanded]
     reals = {os.path.realpath(path) for path in checked}
     read = {os.path.realpath(path) for report in reports if report.checked for path in report.files}
-    belonging = (read | {path for real in reals for path in found.list_files(real)}) - reals
+    belonging = (read | {path for real in reals for path in found.list_belonging(real)}) - reals
     variants = sum(len(options.variants.get(real, ())) or 1 for real in reals)
     names = ", ".join(missing[:_MOST_NAMES])
     more = f" and {len(missing) - _MOST_NAMES} more" if len(missing) > _MOST_NAMES else ""

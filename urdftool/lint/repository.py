@@ -33,6 +33,8 @@ class Repository:
         robots: Robots by resolved path.
         includes: Files that each xacro file includes, by resolved path.
         computes: Resolved paths of files that include a file with a computed name.
+        parts: Resolved paths of URDF files that use arguments and declare none, so that only a file
+            that includes them by a computed name can use them.
         paths: Path as found of each xacro and URDF file, by resolved path.
         unknown: Places of launch files and builds that compute the path of a description.
     """
@@ -40,6 +42,7 @@ class Repository:
     robots: dict[str, RobotFile] = field(default_factory=dict)
     includes: dict[str, list[str]] = field(default_factory=dict)
     computes: set[str] = field(default_factory=set)
+    parts: set[str] = field(default_factory=set)
     paths: dict[str, str] = field(default_factory=dict)
     unknown: list[str] = field(default_factory=list)
 
@@ -52,6 +55,11 @@ class Repository:
                     found.add(path)
                     todo.append(path)
         return found
+
+    def list_belonging(self, robot: str) -> set[str]:
+        """Return the files of a robot, and all parts if it includes files by computed names."""
+        files = self.list_files(robot)
+        return files | self.parts if files & self.computes else files
 
     def select(self, changed: Iterable[str]) -> list[str]:
         """Return the robots that changed files belong to, by resolved path.

@@ -3,7 +3,8 @@
 Below a folder, robots are
 
 - ``.urdf`` and ``.urdf.xacro`` files, except for xacro files that another file includes and whose
-  ``<robot>`` has no name,
+  ``<robot>`` has no name, and for URDF files that use arguments without declaring one while another
+  file includes files by computed names,
 - other ``.xacro`` files whose ``<robot>`` has a name, that have links or call macros, and that no
   other file includes,
 - files that the configuration names (``lint.robots``, ``lint.variants``),
@@ -23,6 +24,7 @@ from pathlib import Path
 
 from ..configuration import Configuration, find_configuration
 from ..errors import ConfigError, UrdftoolError
+from ..rules.unexpanded import is_part
 from ..source.document import Element, parse, read_file
 from ..source.packages import Packages
 from ..workspace import Workspace
@@ -116,18 +118,29 @@ class _Search:
         self.found.paths[real] = path
         if path.endswith(ENDINGS):
             self.found.robots[real] = RobotFile(path, "by its name")
-        if not path.endswith(".xacro"):
+        if path.endswith(".urdf") and not self._may_be_part(path):
             return
         try:
             root = parse(read_file(path, self.workspace)).root
         except UrdftoolError:
-            self.candidates[real] = "it is not well-formed, and no file includes it"
+            if path.endswith(".xacro"):
+                self.candidates[real] = "it is not well-formed, and no file includes it"
+            return
+        if path.endswith(".urdf"):
+            self.found.parts |= {real} if is_part(root) else set()
             return
         self.found.includes[real] = list(self._resolve_includes(path, real, root))
         if not root.get("name"):
             self.nameless.add(real)
         if not path.endswith(ENDINGS) and root.get("name") and _has_content(root):
             self.candidates[real] = "its <robot> has a name and links, and no file includes it"
+
+    def _may_be_part(self, path: str) -> bool:
+        """Tell whether a URDF file has text of an argument of xacro."""
+        try:
+            return b"$(arg " in read_file(path, self.workspace).data
+        except UrdftoolError:
+            return False
 
     def _resolve_includes(self, path: str, real: str, root: Element) -> Iterator[str]:
         """Yield the resolved paths of the files that a file includes."""
@@ -156,7 +169,9 @@ class _Search:
         included = {
             path for real, paths in self.found.includes.items() for path in paths if path != real
         }
-        for real in self.nameless & included:
+        if not self.found.computes:
+            self.found.parts.clear()
+        for real in self.nameless & included | self.found.parts:
             self.found.robots.pop(real, None)
         for real, why in self.candidates.items():
             if real not in included:

@@ -408,6 +408,11 @@ def is_for_gz(element: Element) -> bool:
     )
 
 
+def is_for_yarp(element: Element) -> bool:
+    """Tell whether a plugin passes data to YARP, which has frames of its own instead of TF."""
+    return "yarp" in get_library(element).lower()
+
+
 def is_for_classic(element: Element) -> bool:
     """Tell whether a plugin is known to belong to Gazebo Classic."""
     words = get_library(element)

@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from statistics import median
 
 from ...model.attached import find_attached_links
 from ...model.bounds import Bounds, compute_size, has_extent
-from ...model.elements import Box, Cylinder, Link, Mesh, Robot, Sphere
+from ...model.elements import (
+    Box,
+    Collision,
+    Cylinder,
+    Joint,
+    Link,
+    Mesh,
+    Robot,
+    Sphere,
+    Visual,
+)
 from ...model.pose import make_pose
 from ..fix import FixContext, Proposal, unsafe
 from ..gazebo.contact import compute_axis_elevation
@@ -54,11 +64,11 @@ def missing_collision(
     ``urdftool-ignore[missing-collision]``.
 
     Not reported are links that the collision of a link fixed to them covers, that rotate inside
-    the collision of their parent body, or that slide along a rail that goes through them. Links of
-    at most ``smallest`` [m], which mark frames, links named virtual or dummy, and those with fully
-    transparent visuals are skipped, and so is a single link without mass, such as the marker of a
-    goal. Links smaller than ``small`` [m], and those inside the
-    bounding box of their rigid body's collisions, are an info.
+    the collision of their parent body, that slide along a rail that goes through them, or that are
+    such a rail, whose collision would block the joint. Links of at most ``smallest`` [m], which
+    mark frames, links named virtual or dummy, and those with fully transparent visuals are
+    skipped, and so is a single link without mass, such as the marker of a goal. Links smaller than
+    ``small`` [m], and those inside the bounding box of their rigid body's collisions, are an info.
     """
     if len(robot.links) == 1 and not robot.links[0].mass:
         return  # a marker, such as a goal
@@ -74,6 +84,8 @@ def missing_collision(
         if sizes[link.name] <= smallest or _has_misspelled_collision(link):
             continue
         if _is_covered(robot, link) or _is_rotating_inside(robot, link) or _has_rail(robot, link):
+            continue
+        if _is_rail(robot, link):
             continue
         is_minor = sizes[link.name] < small or _is_enveloped(robot, link)
         yield Problem(
@@ -307,14 +319,32 @@ def _is_rotating_inside(robot: Robot, link: Link) -> bool:
     return False
 
 
+def _is_rail(robot: Robot, link: Link) -> bool:
+    """Tell whether a link is the rail of a prismatic joint, and goes through what slides on it."""
+    for joint in robot.tree.get_child_joints(link.name):
+        slider = robot.link.get(joint.child)
+        if slider is not None and joint.type == "prismatic":
+            shapes = (slider.visuals, slider.collisions)
+            if any(_is_on_rail(robot, joint, link, seen) for seen in shapes):
+                return True
+    return False
+
+
 def _has_rail(robot: Robot, link: Link) -> bool:
     """Tell whether the rail of a prismatic joint, which collides, goes through a link's visuals."""
-    reach = get_extents(robot)
     joint = robot.tree.get_parent_joint(link.name)
     rail = robot.link.get(joint.parent) if joint is not None else None
     if joint is None or rail is None or joint.type != "prismatic" or not rail.collisions:
         return False
-    seen, along = reach.get_shapes_box(link.visuals), reach.get_shapes_box(rail.visuals)
+    return _is_on_rail(robot, joint, rail, link.visuals)
+
+
+def _is_on_rail(
+    robot: Robot, joint: Joint, rail: Link, shapes: Sequence[Visual | Collision]
+) -> bool:
+    """Tell whether the visuals of the parent of a joint go through shapes of its child."""
+    reach = get_extents(robot)
+    seen, along = reach.get_shapes_box(shapes), reach.get_shapes_box(rail.visuals)
     if seen is None or along is None:
         return False
     pose = make_pose(joint.origin)

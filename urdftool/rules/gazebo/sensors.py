@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ...model.attached import find_attached_links
 from ...model.elements import GazeboExtension, Link, Robot, Sensor
-from ...model.gazebo_plugins import SENSOR_PLUGINS, get_library
+from ...model.gazebo_plugins import SENSOR_PLUGINS, get_library, is_for_yarp
 from ...model.pose import IDENTITY, Pose, rotation_from_rpy
 from ...model.read import parse_numbers
 from ...source.document import Element
@@ -199,9 +199,14 @@ def missing_gz_frame_id(
     of the sensor. If the sensor has a ``<pose>``, write a link that is fixed at that pose, or add
     one: with the link of the sensor its data would be displaced. More than ``together`` sensors of
     a kind are one finding. Without ROS among the targets it is an info, and sensors for which no
-    link exists are not reported, because no reader may need TF for their data.
+    link exists are not reported, because no reader may need TF for their data; neither are any
+    sensors if plugins of the robot pass data to YARP instead.
     """
     severity = INFO if targets.isdisjoint(ROS) else None
+    if severity is INFO and any(
+        is_for_yarp(one.element) for block in robot.gazebo for one in block.plugins
+    ):
+        return
     for sensor in find_sensors_without_frame(robot):
         if sensor.named is not None and sensor.frame is None:
             yield _report_unknown_frame(sensor, sensor.named.text.strip())

@@ -126,6 +126,7 @@ def _report_outside(link: Link, found: Misfit, attached: Sequence[str], also: st
     },
     of_motion=True,
     group="robot",
+    caused_by=("incomplete-inertial",),
 )
 def inertial_not_at_com_suspect(
     robot: Robot, *, far: float = 0.2, light: float = LIGHT

@@ -41,6 +41,7 @@ _MARKER = 1e-3
 """[kg]. Chosen, no source."""
 
 _REMOVED = "Gazebo removes the link and everything attached to it"
+_ALL_REMOVED = "Gazebo removes them and everything attached to them"
 _HINT = "'urdftool inertia robot --write --mass LINK=KG' computes one from its geometry"
 _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-classic (part)"}
 
@@ -71,6 +72,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     a mass, it is only an info, unless the link of the other side has one, or that mass is less
     than that of air of the link's size, and except for PyBullet and MuJoCo, which substitute a mass
     there too.
+    The mass of a link that is fixed to the world matters only to Gazebo.
     Frames without geometry need none, although PyBullet gives them 1 kg. A marker below 1 g at
     the density of water is an info where MuJoCo substitutes the mass.
     """
@@ -95,7 +97,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
         held = is_fixed_to_world(robot, link)
         if in_gazebo and link.name not in heavy:
             outcome, severity, so = "removed", ERROR, f"; {_REMOVED}"
-            several = "; Gazebo removes them and everything attached to them"
+            several = f"; {_ALL_REMOVED}"
             if kept is not None and not kept:
                 so = several = "; no link of the robot remains in Gazebo"
         elif "pybullet" in targets and not held:
@@ -119,10 +121,12 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
                 outcome, severity = "light", WARNING
                 so = f", and the links fixed to it {light.describe()}"
                 several = ", and the links fixed to them are lighter than air of their size"
+        elif held and not targets.isdisjoint(("mujoco", "pybullet")):
+            continue  # its mass has no effect there
         elif held:
             outcome, severity = "static", INFO
-            so = " and is fixed to the world, where its mass has no effect"
-            several = " and are fixed to the world, where their mass has no effect"
+            so = f" and is fixed to the world; {_REMOVED}"
+            several = f" and are fixed to the world; {_ALL_REMOVED}"
         else:
             outcome, severity, so = "no mass", WARNING, " and so has no mass"
             several = " and so have no mass"
@@ -177,9 +181,11 @@ def _select_effects(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
     """
     body = [one for one, _ in find_attached_links(robot, link)]
     tops = [robot.tree.get_parent_joint(one.name) for one in body]
-    keys = {"pybullet", "pinocchio, KDL, drake"}
-    keys |= {"gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else "")} & _IN_GAZEBO
-    if None in tops or is_fixed_to_world(robot, link):
+    keys = {"gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else "")} & _IN_GAZEBO
+    if is_fixed_to_world(robot, link):
+        return keys
+    keys |= {"pybullet", "pinocchio, KDL, drake"}
+    if None in tops:
         return keys
     if link.collisions:
         keys.add("mujoco (collisions)")

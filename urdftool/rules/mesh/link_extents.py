@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -92,7 +93,7 @@ class LinkExtents:
         # a mesh in another unit is reported by itself, and does not show the size of the link
         return box if SMALLEST < max(box.size) < LARGEST else None
 
-    def get_shapes_box(self, shapes: list[Visual] | list[Collision]) -> Bounds | None:
+    def get_shapes_box(self, shapes: Sequence[Visual | Collision]) -> Bounds | None:
         """Get the bounding box of several shapes; None if one is unknown or there are none."""
         box: Bounds | None = None
         for shape in shapes:

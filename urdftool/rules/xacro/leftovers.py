@@ -18,7 +18,7 @@ from ..fix import (
     unsafe,
 )
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
-from ..unexpanded import is_unexpanded
+from ..unexpanded import is_part, is_unexpanded
 from .definitions import get_definitions
 
 _BRACED = re.compile(r"(?<!\$)\{(\w+)\}")
@@ -56,7 +56,7 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
             others = "place" if len(found) == 2 else "places"
             more = f" (and in {len(found) - 1} other {others})" if len(found) > 1 else ""
             braced = _BRACED.search(text)
-            part = _is_part(root, [text for _, text, _ in found])
+            part = is_part(root)
             if part:
                 remedy = "its argument is declared in the file that includes this one: check that"
             elif braced and "${" not in text and "$(" not in text:
@@ -100,12 +100,6 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 data={"name": braced[1]},
                 effects=_select_effects(element),
             )
-
-
-def _is_part(root: Element, texts: list[str]) -> bool:
-    """Tell whether a file uses arguments of xacro, and declares none."""
-    declares = any(element.tag.rpartition(":")[2] == "arg" for element in root.walk())
-    return not declares and all("$(arg " in text for text in texts)
 
 
 def _select_effects(element: Element) -> tuple[str, ...]:
