@@ -6,7 +6,7 @@ motion in a box is small, triangles are asked for their distance.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,8 +24,10 @@ THIN = 0.01
 SAMPLES = 512
 """Random poses that are tried before the proof; chosen, no source."""
 
-ROUNDS, ELITE = 6, 24
-"""Rounds of the search around the nearest poses, and how many of them; chosen, no source."""
+ROUNDS, ELITE, NARROWED = 6, 24, 128
+"""Rounds of the search around the nearest poses, how many of them, and poses of a round; chosen, no
+source.
+"""
 
 TURN = 512
 """Boxes in the first turn of a proof; chosen, no source."""
@@ -36,8 +38,8 @@ FASTER = 3
 SWEPT = 4
 """A proof with swept bodies gets the budget divided by this; chosen, no source."""
 
-_PIECES_AT_ONCE = 64
-"""Pairs of convex pieces in one array; chosen, no source."""
+_DISTANCES_AT_ONCE = 1 << 16
+"""Distances in one array, which then stays in the cache of a processor; chosen, no source."""
 
 TESTS = 6
 """Tests of contact for each pair in a batch; chosen, no source."""
@@ -92,7 +94,7 @@ class Prover(Divider):
     def _take_turns(self, budget: int) -> int:
         """Prove pairs by all proofs; return the boxes of those with swept bodies."""
         count = min(TURN, budget // 2)
-        if not self.divide(count, budget):
+        if not self.divide(count, budget) or budget < SWEPT * TURN // 2:
             return 0
         swept = [Divider(*simpler, self._get_open_outcomes()) for simpler in self._list_simpler()]
         left, running = list(swept), True
@@ -133,7 +135,7 @@ class Prover(Divider):
         else:
             values[: count // 2] = self._push_to_limits(values[: count // 2])
         placed = place(self.chain, values)
-        depth = self._measure_spheres(placed, np.nonzero(self.pair_of >= 0))
+        depth = self._measure_spheres(placed, range(len(self.pairs)))
         self._test(values, placed, depth, 4 * TESTS)
         if len(self.lower):
             for index in np.nonzero(self.list_open())[0]:
@@ -141,35 +143,38 @@ class Prover(Divider):
 
     def _narrow(self, values: Array, depth: Array, index: int) -> None:
         """Sample around the nearest poses of one pair, several times."""
-        pieces = np.nonzero(self.pair_of == index)
         for _ in range(ROUNDS):
             best = values[np.argsort(depth, kind="stable")[:ELITE]]
             spread = np.maximum(best.std(axis=0), (self.upper - self.lower) / 200)
-            parents = best[self.random.integers(0, len(best), len(values))]
+            parents = best[self.random.integers(0, len(best), min(NARROWED, len(values)))]
             values = parents + self.random.normal(size=parents.shape) * spread
             values = np.clip(values, self.lower, self.upper)
             values[: len(best)] = best
             placed = place(self.chain, values)
-            depth = self._measure_spheres(placed, pieces)[:, index]
+            depth = self._measure_spheres(placed, (index,))[:, index]
             wide = np.full((len(values), len(self.pairs)), np.inf)
             wide[:, index] = depth
             self._test(values, placed, wide, TESTS)
             if self.outcomes[self.pairs[index]].witness is not None:
                 return
 
-    def _measure_spheres(self, placed: Placement, pieces: tuple[np.ndarray, ...]) -> Array:
-        """Return the smallest distance of the bounding spheres of each pair of links [m]."""
-        ones, others = pieces
+    def _measure_spheres(self, placed: Placement, indices: Iterable[int]) -> Array:
+        """Return the smallest distance of the bounding spheres of pairs of links [m].
+
+        Args:
+            placed: Poses of the bodies.
+            indices: Which pairs are measured; the distance of the others is infinite.
+        """
         centers = self.separator.locate(get_poses(placed))
-        reach = self.covers[0].radii[ones] + self.covers[1].radii[others]
         depth: Array = np.full((len(centers[0]), len(self.pairs)), np.inf)
-        pair = self.pair_of[ones, others]
-        for start in range(0, len(ones), _PIECES_AT_ONCE):
-            some = slice(start, start + _PIECES_AT_ONCE)
-            between = centers[0][:, ones[some]] - centers[1][:, others[some]]
-            slack = np.sqrt(np.einsum("nki,nki->nk", between, between)) - reach[some]
-            for index in np.unique(pair[some]):
-                least = slack[:, pair[some] == index].min(axis=1)
+        for index in indices:
+            ones, others = (np.unique(found) for found in np.nonzero(self.pair_of == index))
+            step = max(1, _DISTANCES_AT_ONCE // (len(depth) * len(others)))
+            for start in range(0, len(ones), step):
+                some = ones[start : start + step]
+                reach = self.covers[0].radii[some][:, None] + self.covers[1].radii[others]
+                between = _measure_distances(centers[0][:, some], centers[1][:, others])
+                least = (between - reach).min(axis=(1, 2))
                 depth[:, index] = np.minimum(depth[:, index], least)
         return depth
 
@@ -221,3 +226,10 @@ class Prover(Divider):
 def get_pose_of(placed: Placement, row: int) -> list[tuple[Array, Array]]:
     """Return rotation and translation [m] of A and of B in one box."""
     return [(rotation[row], translation[row]) for rotation, translation in get_poses(placed)]
+
+
+def _measure_distances(ones: Array, others: Array) -> Array:
+    """Return the distances of points [m], (poses, ones, others), from (poses, points, 3)."""
+    squares = (ones**2).sum(axis=2)[:, :, None] + (others**2).sum(axis=2)[:, None, :]
+    squares -= 2 * ones @ others.transpose(0, 2, 1)
+    return np.sqrt(np.maximum(squares, 0, out=squares), out=squares)
