@@ -232,4 +232,5 @@ def _measure_distances(ones: Array, others: Array) -> Array:
     """Return the distances of points [m], (poses, ones, others), from (poses, points, 3)."""
     squares = (ones**2).sum(axis=2)[:, :, None] + (others**2).sum(axis=2)[:, None, :]
     squares -= 2 * ones @ others.transpose(0, 2, 1)
-    return np.sqrt(np.maximum(squares, 0, out=squares), out=squares)
+    distances: Array = np.sqrt(np.maximum(squares, 0))
+    return distances
