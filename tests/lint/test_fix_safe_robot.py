@@ -1,35 +1,19 @@
 """A safe fix changes no part, sensor, plugin or controller of a robot but those that it states."""
 
+import random
 import shutil
 from pathlib import Path
 
 import pytest
 
 import urdftool
+from measure.damage.safe_fixes import KINDS, STATED, list_robots, remove_names, try_robot
 from tests.lint.test_fix_safe import BAD, RULES
 from urdftool.errors import UrdftoolError
 from urdftool.lint.fix_run import fix_description
 from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
-
-STATED = {
-    # rule: row of ``verify``, and what differs; what readers did not read, or read wrongly, before
-    "mesh-case-mismatch": {("visuals", "visual")},
-    "missing-gazebo-material": {("looks", "ambient"), ("simulator data", "visual added"),
-                                ("simulator data", "visual/material added"),
-                                ("simulator data", "visual/material/ambient"),
-                                ("simulator data", "visual/material/diffuse")},
-    "missing-gz-frame-id": {("sensors", "frame")},
-    "ogre-material-script": {("simulator data", "material"), ("looks", "material script"),
-                             ("simulator data", "gazebo[chassis] added")},
-    "plugin-class-mismatch": {("simulator data", "plugin")},
-    "ros2-control-nested": {("simulator data", "existence")},
-    "unknown-element": {("colors", "color of visual")},
-    "unprefixed-hardware-interface": {("simulator data", "joint[swing]/hardwareInterface")},
-    "wrong-arity": {("colors", "color of visual")},
-    "wrong-case-keyword": {("tree", "type")},
-}  # fmt: skip
 
 
 @pytest.mark.parametrize("bad", BAD, ids=lambda path: f"{path.parent.name}/{path.name}")
@@ -46,4 +30,14 @@ def test_a_safe_fix_changes_what_it_states(bad, tmp_path):
         found = urdftool.verify(before, urdftool.load(path)).list_disagreements()
     except UrdftoolError:
         return  # no reader could read the robot before, so that nothing is comparable
-    assert {(one.row, one.what) for one in found} <= STATED.get(rule, set())
+    assert {(one.row, remove_names(one.what)) for one in found} <= STATED.get(rule, set())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["kuka_iiwa/model.urdf", "a1/a1.urdf", "r2d2.urdf"])
+def test_safe_fixes_of_real_robots_change_what_they_state(name):
+    pytest.importorskip("pybullet_data")
+    found = [path for robot, path in list_robots().items() if robot == f"pybullet_data/{name}"]
+    compared = list(try_robot(found[0], sorted(KINDS), random.Random(1)))
+    assert len(compared) >= 8
+    assert [one.unstated for one in compared if one.unstated] == []
