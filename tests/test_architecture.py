@@ -126,6 +126,7 @@ PLACES = {
         "cluster.py",
         "limited.py",  # TimeoutExpired
         "source/expansion_process.py",
+        "source/expansion_server.py",
         "git_command.py",
         "formats/sdf/verify/loader.py",  # gz sdf
     ),
@@ -230,7 +231,9 @@ CALLS = {
     "os.replace": ("storage.py",),
     "os.rename": ("storage.py", "leftovers.py"),
     "os.link": ("storage.py",),
-    "os.fork": ("limited.py", "source/expansion_process.py"),
+    "os.fork": (
+        *("limited.py", "source/expansion_process.py", "source/expansion_server_child.py"),
+    ),
     "get_close_matches": ("suggestions.py",),
 }
 
@@ -387,7 +390,8 @@ OPENERS = {
     "inertia/mass_file.py": NAMED,
     "leftovers.py": "names beside an output",
     "parallel.py": "memory of this process",
-    "source/expansion_process.py": "the null device",
+    "source/expansion_child.py": "the null device",
+    "source/resident_memory.py": "memory of this process",
     "lint/baseline.py": NAMED,
     "lint/cache.py": "entries of the cache",
     "fmt/discover.py": "lists the folder that the user names",

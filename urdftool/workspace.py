@@ -74,6 +74,7 @@ class Workspace:
 
     Attributes:
         dependencies: Queries made through this view; None if they are not recorded.
+        expansion_server: Process that prepares expansions of xacro; None if each starts its own.
     """
 
     def __init__(self, overlay: Mapping[str, bytes] | None = None) -> None:
@@ -90,6 +91,7 @@ class Workspace:
         self._access: Access | None = None
         self._base: Workspace | None = None
         self._copies = _Copies()
+        self.expansion_server: Any = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle only the overlay and the restriction, for another process."""
@@ -131,6 +133,7 @@ class Workspace:
         other = _restore({**self._overlay, **overlay}, self._access)
         other._base = self
         other._copies = self._copies
+        other.expansion_server = self.expansion_server
         return other
 
     # Memo ----------------------------------------------------------------------------------

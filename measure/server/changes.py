@@ -10,9 +10,9 @@ import resource
 import statistics
 import subprocess
 import sys
+import time
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from time import process_time
 
 from urdftool.server.session import Session
 
@@ -22,6 +22,8 @@ EDITS = 1000
 """Edits of each robot; source: the goal is that of 1,000."""
 WARM = 10
 """Edits that are not counted: imports, meshes and packages."""
+_PAUSE = 0.05
+"""Time [s] between a check and the next edit; source: the server waits as long for a next key."""
 _NUMBER = re.compile(r"(?<=[\"\s])(\d+\.\d*[1-9])(?=[\"\s])")
 
 
@@ -34,12 +36,14 @@ class Changes:
         first: Processor time [s] of each edit until the first part.
         whole: Processor time [s] of each edit until its findings.
         memory: Memory [MiB] that is resident after a number of edits.
+        between: Processor time [s] for the next expansion before each edit.
     """
 
     robot: str
     first: list[float] = field(default_factory=list)
     whole: list[float] = field(default_factory=list)
     memory: dict[int, float] = field(default_factory=dict)
+    between: list[float] = field(default_factory=list)
 
     @property
     def p95(self) -> float:
@@ -82,18 +86,24 @@ def measure_robot(path: Path, edits: int) -> Changes:
     session.knowledge.configure(
         "utf-16", [str(folder)], find_packages(), [str(CORPUS)], (), None, ()
     )
-    result = Changes(path.name)
+    result, server = Changes(path.name), session.knowledge.expansion_server
     text = path.read_text("utf-8")
     place = find_number(text)
     for count in range(1, edits + 1):
         changed = f"{text[:place]}{count % 10}{text[place + 1 :]}"
+        before = server.prepared
         first, whole = _check(session, str(path), changed)
+        between = server.prepared - before
+        session.prepare()
         gc.collect()
+        time.sleep(_PAUSE)
         if count > WARM:
             result.first.append(first)
             result.whole.append(whole)
+            result.between.append(between)
         if count in (100, 1000):
             result.memory[count] = measure_memory()
+    server.close()
     return result
 
 
@@ -108,21 +118,24 @@ def _check(session: Session, path: str, text: str) -> tuple[float, float]:
     """Return the processor time [s] until the first rule, and until the findings."""
     reached: list[float] = []
 
+    def measure() -> float:
+        return _get_time() + session.knowledge.expansion_server.used
+
     def poll() -> None:
         if not reached:
-            reached.append(_get_time())
+            reached.append(measure())
 
-    start = _get_time()
+    start = measure()
     session.set_document(path, text)
     session.compute_answer("check", {"paths": [path]}, lambda part: None, poll)
-    end = _get_time()
+    end = measure()
     return (reached[0] if reached else end) - start, end - start
 
 
 def _get_time() -> float:
     """Return the processor time [s] of this process and of those that it ended."""
     children = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return process_time() + children.ru_utime + children.ru_stime
+    return time.process_time() + children.ru_utime + children.ru_stime
 
 
 def measure_memory() -> float:

@@ -75,7 +75,7 @@ def test_all_that_is_opened_or_listed_is_a_dependency():
 # Those that look at files which no report depends on, and data of the package.
 OF_PROCESSES = {
     ("source/access.py", "environ"),
-    ("source/expansion_process.py", "environ"),  # of the process that expands: emptied
+    ("source/expansion_child.py", "environ"),  # of the process that expands: emptied
 }
 """Modules that use the environment of processes, which no description reads."""
 

@@ -11,7 +11,13 @@ import pytest
 
 from urdftool import expand
 from urdftool.errors import XacroError
-from urdftool.source import expansion_channel, expansion_process, limits, xacro_hooks
+from urdftool.source import (
+    expansion_channel,
+    expansion_child,
+    expansion_process,
+    limits,
+    xacro_hooks,
+)
 
 XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">{}</robot>'
 FORKS = pytest.mark.skipif(sys.platform != "linux", reason="the process is a fork on Linux")
@@ -103,8 +109,8 @@ def test_a_process_that_is_killed_is_reported_at_its_element(path, monkeypatch):
         original(run, node, start)
         os.abort()
 
-    original = expansion_process.RequestedFiles.mark_place
-    monkeypatch.setattr(expansion_process.RequestedFiles, "mark_place", die)
+    original = expansion_child.RequestedFiles.mark_place
+    monkeypatch.setattr(expansion_child.RequestedFiles, "mark_place", die)
     with pytest.raises(XacroError, match="exceeds a limit of the system") as caught:
         expand(path)
     assert caught.value.line == 2
@@ -147,7 +153,7 @@ def test_a_result_that_is_not_as_expected_is_an_error(path, monkeypatch, result)
     whole = {"encodings": ["utf-8"], "call_table": [], "stack_table": [[]], "arguments": []}
     whole |= {"warnings": [], "included": []}
     sent = {**whole, **result} if result and "encodings" not in result else result
-    monkeypatch.setattr(expansion_process.Writer, "write_result", lambda *_: sent)
+    monkeypatch.setattr(expansion_child.Writer, "write_result", lambda *_: sent)
     with pytest.raises(XacroError, match="invalid result"):
         expand(path)
 
@@ -155,7 +161,7 @@ def test_a_result_that_is_not_as_expected_is_an_error(path, monkeypatch, result)
 @FORKS
 def test_an_answer_of_too_many_values_is_not_parsed(path, monkeypatch):
     monkeypatch.setattr(expansion_channel, "MAX_VALUES", 1000)
-    monkeypatch.setattr(expansion_process.Writer, "write_result", lambda *_: [[]] * 2000)
+    monkeypatch.setattr(expansion_child.Writer, "write_result", lambda *_: [[]] * 2000)
     with pytest.raises(XacroError, match="exceeds a limit"):
         expand(path)
 

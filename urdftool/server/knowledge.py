@@ -19,6 +19,7 @@ from ..model.elements import Robot
 from ..projects import find_project
 from ..source.description import Description
 from ..source.document import Document, parse, read_file
+from ..source.expansion_server import ExpansionServer
 from ..source.location import SourceFile
 from ..source.packages import Packages
 from ..workspace import Workspace
@@ -64,6 +65,7 @@ class Knowledge:
         states: State by resolved path of each checked robot.
         version: Number of changes of documents and files.
         read_robots: Reads the robots of a file, if that was not done since the last change.
+        expansion_server: Process that prepares expansions between two changes.
     """
 
     def __init__(self) -> None:
@@ -75,7 +77,8 @@ class Knowledge:
         self._texts: dict[str, bytes] = {}
         self._folders: tuple[str, ...] = ()
         self._options = Options(read_other=read_other_format)
-        self._base = Workspace()
+        self.expansion_server = ExpansionServer()
+        self._base = self._make_base()
         self._repositories: dict[str, Repository] = {}
         self._workspace: Workspace | None = None
         self.read_robots: Callable[[str], None] = lambda path: None
@@ -119,9 +122,14 @@ class Knowledge:
 
     def refresh(self) -> None:
         """Forget what was read from the disk, which has changed."""
-        self._base = Workspace()
+        self._base = self._make_base()
         self._repositories = {}
         self._forget()
+
+    def _make_base(self) -> Workspace:
+        base = Workspace()
+        base.expansion_server = self.expansion_server
+        return base
 
     def _forget(self) -> None:
         self.version += 1

@@ -67,6 +67,10 @@ class Session:
         self._read_robots(params["path"])
         return _QUESTIONS[method](self.knowledge, params)
 
+    def prepare(self) -> None:
+        """Prepare the next check, while there is nothing to answer."""
+        self.knowledge.expansion_server.prepare()
+
     def _read_robots(self, path: str) -> None:
         """Read the robots of a file again, if no check has read them as they are."""
         states = self.knowledge.list_states(path)

@@ -54,6 +54,7 @@ class Worker:
         try:
             while True:
                 self._send_answer(self.inbox.take())
+                self.session.prepare()
                 gc.collect()
         except (Closed, BrokenPipeError):
             return

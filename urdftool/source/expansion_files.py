@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Hashable
 from itertools import islice
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..control_characters import LINES, escape_controls
 from ..errors import XacroError
@@ -18,6 +18,9 @@ from .location import SourceFile
 from .packages import Packages
 from .sandbox import Sandbox
 from .yaml_bounds import MAX_BYTES
+
+if TYPE_CHECKING:
+    from .expansion_server import ExpansionServer
 
 T = TypeVar("T")
 
@@ -50,6 +53,12 @@ class ExpansionFiles:
     def trusted(self) -> bool:
         """Tell whether the description is trusted."""
         return self._sandbox.trusted
+
+    @property
+    def expansion_server(self) -> ExpansionServer | None:
+        """Return the process that prepares expansions; None if the workspace has none."""
+        server: ExpansionServer | None = self._packages.workspace.expansion_server
+        return server
 
     @property
     def requests(self) -> dict[str, Callable[..., Any]]:

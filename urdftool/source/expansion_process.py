@@ -3,8 +3,8 @@
 The process has no access to files, programs and the network: it requests each file of this process,
 which decides. Time and memory are limited by the system. Its answers are JSON, read by type.
 
-On Linux the process is a fork, which starts in milliseconds; where other threads run, and on other
-systems, it is a new interpreter.
+On Linux the process is a fork, which starts in milliseconds, or one that an ``ExpansionServer``
+prepared; where other threads run, and on other systems, it is a new interpreter.
 """
 
 from __future__ import annotations
@@ -17,18 +17,19 @@ import sys
 from collections.abc import Iterable
 from contextlib import suppress
 from importlib import import_module
-from typing import Any, NoReturn
+from typing import Any
 
 from ..errors import UrdftoolError, XacroError
-from ..landlock import disable_files_and_network
-from ..parallel import can_fork, hold_signals, ignore_interrupts, limit_resources, measure_memory
+from ..parallel import can_fork, hold_signals, ignore_interrupts
 from . import limits
 from .expansion import Expansion
 from .expansion_channel import Channel, Ended
+from .expansion_child import close_files, expand_job, import_modules, restrict_process
 from .expansion_files import ExpansionFiles
-from .expansion_json import Reader, Writer
-from .expansion_requests import PLACE, RequestedFiles
-from .last_expansion import MAX_TEXT, LastExpansion, Prepared, get_last_expansion
+from .expansion_handle import ExpansionHandle, make_place
+from .expansion_json import Reader
+from .expansion_requests import PLACE
+from .last_expansion import LastExpansion, Prepared, get_last_expansion
 from .location import Place, SourceFile
 from .packages import Packages
 from .well_formed import WIDE
@@ -44,19 +45,18 @@ _MAX_PATH = 4096  # characters; the limit of Linux
 _MAX_STARTS = 4  # an expansion starts again for each encoding of its files, and for YAML; chosen
 _ON_DEMAND = frozenset(("yaml",))
 """Modules that an expansion may ask for."""
-_NOT_INTERRUPTIBLE = 1.0  # s: after TOTAL_SECONDS, until the system ends the process
 _ALWAYS = ("urdftool.source.tags", "difflib", "resource", "unicodedata")
 """Modules that an expansion may import when it cannot open files any more."""
 
 _ENCODING = re.compile(rb"<\?xml[^>]*?encoding\s*=\s*[\"']([\w.:-]+)")
-_START = f"import sys; sys.path[:] = sys.argv[1:]; from {__name__} import serve; serve()"
+_START = (
+    "import sys; sys.path[:] = sys.argv[1:]; "
+    f"from {__package__}.expansion_child import serve; serve()"
+)
 
 
 class _RequiresModules(Exception):  # noqa: N818
     """Signal that the expansion must start again with further modules imported."""
-
-
-# Side that reads files ----------------------------------------------------------------------------
 
 
 def expand(result: Expansion, packages: Packages) -> None:
@@ -101,7 +101,8 @@ def _list_modules(file: SourceFile) -> Iterable[str]:
 
 def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
     last = get_last_expansion(files, result.file, result.given)
-    prepared = last.prepare(files) if can_fork() else Prepared()
+    server = files.expansion_server
+    prepared = last.prepare(files, only_answers=server is not None) if can_fork() else Prepared()
     for file in files.files[1:]:
         modules.update(_list_modules(file))
     job = {
@@ -112,7 +113,7 @@ def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
         "record": result.lookups is not None,
         "modules": sorted(modules),
     }
-    process = (_Fork if can_fork() else _Interpreter)(job, result.file.data, files.files, prepared)
+    process = _start(job, result.file.data, files, prepared)
     try:
         answer, *remembered = _serve_requests(process.channel, files, modules, last)
         if "bug" in answer:
@@ -122,12 +123,27 @@ def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
             raise reader.read_error()
         result.dependencies = files.finish(reader.read_result(result))
         last.finish(prepared, *remembered)
+        if server is not None:
+            server.keep(files.files[1:], last.texts, trusted=files.trusted)
     except _INVALID as error:
         code = process.end()
         at = process.find_place(files.files) or Place(result.file, 0, 0)
         raise _make_death_error(code, error, at) from None
     finally:
         process.end()
+
+
+def _start(
+    job: dict[str, Any], data: bytes, files: ExpansionFiles, prepared: Prepared
+) -> ExpansionHandle:
+    """Start the process of an expansion, or take one that is prepared."""
+    server = files.expansion_server
+    if server is not None:
+        server.patience = PATIENCE
+        served = server.start_expansion(job, data, files.files, prepared.answers)
+        if served is not None:
+            return served
+    return (_Fork if can_fork() else _Interpreter)(job, data, files.files, prepared)
 
 
 def _serve_requests(
@@ -212,21 +228,7 @@ def _make_death_error(exit_code: int, error: Exception, at: Place) -> XacroError
     return XacroError(message, at=at, rule="endless-expansion")
 
 
-class _Process:
-    """Process that expands, with the channel to it."""
-
-    channel: Channel
-
-    def find_place(self, files: list[SourceFile]) -> Place | None:
-        """Return the location of the last evaluated element; None if unknown."""
-        return None
-
-    def end(self) -> int:
-        """End the process and close the channel; return its exit code, negative for a signal."""
-        raise NotImplementedError
-
-
-class _Fork(_Process):
+class _Fork(ExpansionHandle):
     """Fork of this process."""
 
     def __init__(
@@ -236,7 +238,7 @@ class _Fork(_Process):
         import mmap
 
         import_module("ctypes")
-        _import_modules(job["modules"])
+        import_modules(job["modules"])
         import_module(".xacro_hooks", __package__)
         self._code: int | None = None
         self._place = mmap.mmap(-1, PLACE.size)
@@ -260,17 +262,16 @@ class _Fork(_Process):
                 signal.signal(number, signal.SIG_DFL)
             ignore_interrupts()
             hold_signals(hold=False)
-            _close_files(keep=(answers[0], requests[1]))
+            close_files(keep=(answers[0], requests[1]))
             channel = Channel(answers[0], requests[1])
-            _serve(job, data, channel, self._place, files[1:], prepared)
+            restrict_process()
+            expand_job(job, data, channel, self._place, files[1:], prepared)
             code = 0
         finally:
             os._exit(code)
 
     def find_place(self, files: list[SourceFile]) -> Place | None:
-        index, start = PLACE.unpack_from(self._place)
-        known = 0 <= index < len(files) and 0 <= start < len(files[index].data)
-        return Place(files[index], start, files[index].find_tag_end(start)) if known else None
+        return make_place(files, *PLACE.unpack_from(self._place))
 
     def end(self) -> int:
         if self._code is None:
@@ -282,7 +283,7 @@ class _Fork(_Process):
         return self._code
 
 
-class _Interpreter(_Process):
+class _Interpreter(ExpansionHandle):
     """New interpreter, without the environment of this process."""
 
     def __init__(
@@ -312,78 +313,3 @@ class _Interpreter(_Process):
             with suppress(OSError):
                 pipe.close()  # type: ignore[union-attr]
         return self._process.wait()
-
-
-def _import_modules(names: Iterable[str]) -> None:
-    for name in names:
-        with suppress(ImportError):
-            import_module(name)
-
-
-# Side that expands --------------------------------------------------------------------------------
-
-
-def serve() -> NoReturn:
-    """Expand one description; the main function of a new interpreter."""
-    channel = Channel(os.dup(0), os.dup(1))
-    os.dup2(2, 0)  # the null device
-    os.dup2(2, 1)
-    job, data = channel.receive()
-    import_module(".xacro_hooks", __package__)
-    _import_modules(job["modules"])
-    _serve(job, data, channel, None, [], Prepared())
-    os._exit(0)
-
-
-def _close_files(keep: tuple[int, int]) -> None:
-    """Close all files but two, and replace the standard streams by the null device."""
-    null = os.open(os.devnull, os.O_RDWR)
-    for stream in range(3):
-        os.dup2(null, stream)
-    first, second = sorted(keep)
-    for start, stop in ((3, first), (first + 1, second), (second + 1, os.sysconf("SC_OPEN_MAX"))):
-        os.closerange(start, stop)
-
-
-def _serve(
-    job: dict[str, Any],
-    data: bytes,
-    channel: Channel,
-    mark: Any,
-    included: list[SourceFile],
-    prepared: Prepared,
-) -> None:
-    """Restrict this process, expand a description and send the result."""
-    from .xacro_hooks import Run
-
-    ignore_interrupts()
-    os.environ.clear()
-    used = measure_memory()
-    disable_files_and_network()
-    processor = limits.TOTAL_SECONDS + _NOT_INTERRUPTIBLE
-    memory = None if used is None else used[0] + limits.MEMORY
-    limit_resources(processor=processor, memory=memory, files=0, processes=0)
-    file = SourceFile(str(job["path"]), data, str(job["encoding"]))
-    result = Expansion(file, job["given"], record=job["record"])
-    files = RequestedFiles([file, *included], prepared.answers, channel, mark)
-    run = Run(result, files, trusted=job["trusted"], codes=prepared.codes)
-    try:
-        names = run.expand()
-        value = Writer(files.files).write_result(result, names)
-    except UrdftoolError as error:
-        value = Writer(files.files).write_error(error)
-    except Exception as error:
-        value = {"bug": f"{type(error).__name__}: {error}, at {_format_traceback(error)}"}
-    with suppress(OSError):  # the other side has ended
-        texts = [text for text in run.codes.keys() - prepared.codes if len(text) <= MAX_TEXT]
-        channel.send(["result", value, files.list_used(), texts])
-
-
-def _format_traceback(error: Exception) -> str:
-    """Return the locations that led to an error; the module ``traceback`` would read files."""
-    places = []
-    trace = error.__traceback__
-    while trace is not None:
-        places.append(f"{trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}")
-        trace = trace.tb_next
-    return ", ".join(places[-5:])

@@ -52,12 +52,24 @@ class LastExpansion:
         self._requests: dict[Words, None] = {}
         self._codes: dict[str, Expression | None] = {}
 
-    def prepare(self, files: ExpansionFiles) -> Prepared:
-        """Find the answers, read and parse the included files, and compile expressions."""
+    @property
+    def texts(self) -> Iterable[str]:
+        """Return the texts of the expressions."""
+        return self._codes.keys()
+
+    def prepare(self, files: ExpansionFiles, *, only_answers: bool = False) -> Prepared:
+        """Find the answers, read and parse the included files, and compile expressions.
+
+        Args:
+            files: Answers to requests.
+            only_answers: Whether the process has trees and compiled expressions.
+        """
         prepared = Prepared()
         for words in self._requests:
             with suppress(UrdftoolError, OSError, ValueError):
-                prepared.answers[words] = _find_answer(files, words)
+                prepared.answers[words] = _find_answer(files, words, parse=not only_answers)
+        if only_answers:
+            return prepared
         self._compile(trusted=files.trusted)
         prepared.codes = {text: code for text, code in self._codes.items() if code is not None}
         return prepared
@@ -96,12 +108,12 @@ class LastExpansion:
                 self._codes.setdefault(text, None)
 
 
-def _find_answer(files: ExpansionFiles, words: Words) -> Any:
+def _find_answer(files: ExpansionFiles, words: Words, *, parse: bool) -> Any:
     name, *arguments = words
     if name != "include":
         return files.requests[name](*arguments)
     index, file = files.read_xml(*arguments)
-    if file.tree is None:
+    if parse and file.tree is None:
         file.tree = parse_xacro(file)
     return index
 

@@ -1,0 +1,190 @@
+"""Expansions in processes that are prepared before: equal results, and the same walls."""
+
+import os
+import signal
+import sys
+import time
+
+import pytest
+
+from tests.source.test_expansion_process import ATTEMPTS, ENDLESS, XACRO, _has_landlock
+from tests.source.test_last_expansion import CHANGES, MAIN, expand_with, folder, list_facts
+from urdftool.errors import SourceError, XacroError
+from urdftool.source import expansion_server, limits, xacro_hooks
+from urdftool.source.document import read_file
+from urdftool.source.expand import expand_xacro
+from urdftool.source.expansion_server_child import serve_connection
+from urdftool.source.packages import Packages
+from urdftool.workspace import Workspace
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the process is a fork on Linux")
+__all__ = ["folder"]
+
+
+class Fork:
+    """The process as a fork of this one, in which functions may be replaced."""
+
+    def __init__(self, connection):
+        self.pid = os.fork()
+        if not self.pid:
+            os.dup2(connection.fileno(), 3)
+            os.closerange(4, 1000)
+            connection.detach()
+            serve_connection(type(connection)(fileno=3))
+            os._exit(0)
+
+    def kill(self):
+        os.kill(self.pid, signal.SIGKILL)
+
+    def wait(self):
+        return os.waitpid(self.pid, 0)[1]
+
+
+@pytest.fixture
+def base():
+    workspace = Workspace()
+    workspace.expansion_server = expansion_server.ExpansionServer(Fork)
+    yield workspace
+    workspace.expansion_server.close()
+
+
+def expand(path, workspace):
+    workspace.expansion_server.prepare()
+    workspace = workspace.get_with_overlay({})
+    return expand_xacro(
+        read_file(str(path), workspace), {}, Packages(str(path), workspace=workspace)
+    )
+
+
+@pytest.fixture
+def path(tmp_path):
+    file = tmp_path / "a.xacro"
+    file.write_text(XACRO.format('\n<link name="${1 + 1}"/>'))
+    return file
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_an_expansion_is_as_without_the_server(folder, base, name):
+    for before in ({}, {"main.xacro": MAIN.replace("end", "last")}):
+        expand_with(base, folder, before)
+        base.expansion_server.prepare()
+    again = expand_with(base, folder, CHANGES[name])
+    assert list_facts(again) == list_facts(expand_with(Workspace(), folder, CHANGES[name]))
+    assert base.expansion_server.used > 0
+
+
+@pytest.mark.parametrize("text", ["<robot>", "<robot xmlns:xacro='x'><a b='${1 +}'/></robot>"])
+def test_a_defect_is_reported_as_without_the_server(folder, base, text):
+    errors = []
+    expand_with(base, folder, {})
+    for workspace in (base, base, Workspace()):
+        with pytest.raises(SourceError) as error:
+            expand_with(workspace, folder, {"b.xacro": text})
+        errors.append((str(error.value), error.value.path, error.value.line, error.value.column))
+    assert errors[0] == errors[1] == errors[2]
+
+
+def run_in_process(monkeypatch, work):
+    """Replace the expansion by a function, whose result becomes a message of the description."""
+
+    def replacement(run):
+        run.files.add_message(str(work()))
+        return []
+
+    monkeypatch.setattr(xacro_hooks.Run, "expand", replacement)
+
+
+@pytest.mark.parametrize("name", [*ATTEMPTS, "environment"])
+def test_the_process_has_no_files_programs_network_or_environment(
+    path, base, monkeypatch, capfd, name
+):
+    if name in ("signal", "list", "remove") and not _has_landlock():
+        pytest.skip("the kernel has no Landlock")
+
+    def work():
+        try:
+            return f"done: {ATTEMPTS[name]() if name in ATTEMPTS else dict(os.environ)}"
+        except OSError as error:
+            return f"refused: {type(error).__name__}"
+
+    run_in_process(monkeypatch, work)
+    with pytest.raises(XacroError):  # there is no tree
+        expand(path, base)
+    assert ("refused: " if name in ATTEMPTS else "done: {}") in capfd.readouterr().err
+
+
+@pytest.mark.slow
+def test_one_step_that_does_not_end_is_ended_at_its_element(path, base, monkeypatch):
+    monkeypatch.setattr(limits, "TOTAL_SECONDS", 1.0)
+    path.write_text(XACRO.format(ENDLESS + '\n<link name="${python.set([(a20,) * 40000])}"/>'))
+    with pytest.raises(XacroError, match="more than 1 s of CPU time") as caught:
+        expand(path, base)
+    assert caught.value.line == 2
+
+
+def test_memory_is_limited_by_the_system(path, base, monkeypatch):
+    monkeypatch.setattr(limits, "MEMORY", 64 << 20)
+    path.write_text(XACRO.format('\n<link name="${[[x] * 99999 for x in python.range(999)]}"/>'))
+    with pytest.raises(XacroError, match="memory") as caught:
+        expand(path, base)
+    assert caught.value.line == 2
+
+
+def test_an_expansion_goes_on_without_a_server_that_was_killed(path, base):
+    text = expand(path, base).text
+    base.expansion_server._process.kill()
+    assert [expand(path, base).text for _ in range(2)] == [text] * 2
+
+
+def test_yaml_and_other_encodings_are_imported_before_the_walls(tmp_path, base):
+    (tmp_path / "c.yaml").write_text("a: 1\n")
+    latin = '<?xml version="1.0" encoding="cp1250"?>' + XACRO.format('<link name="\u0159"/>')
+    (tmp_path / "part.xacro").write_bytes(latin.encode("cp1250"))
+    main = tmp_path / "main.xacro"
+    include = '<xacro:include filename="part.xacro"/>'
+    main.write_text(XACRO.format(include + "<link name=\"a${xacro.load_yaml('c.yaml').a}\"/>"))
+    for _ in range(3):
+        text = expand(main, base).text
+        assert 'name="\u0159"' in text
+        assert 'name="a1"' in text
+
+
+def test_files_that_were_not_used_for_a_while_are_dropped(folder, base, monkeypatch):
+    monkeypatch.setattr(expansion_server, "MAX_KEPT", 400)
+    expand_with(base, folder, {})
+    for count in range(5):
+        changed = {"b.xacro": f"<!-- {count} -->" + CHANGES["an included file"]["b.xacro"]}
+        found = [list_facts(expand_with(one, folder, changed)) for one in (base, Workspace())]
+        assert found[0] == found[1]
+        base.expansion_server.prepare()
+    kept = base.expansion_server._kept
+    assert 0 < sum(len(data) for _, data in kept) <= 400
+
+
+def count_descriptors():
+    return len(os.listdir("/proc/self/fd"))
+
+
+def test_nothing_is_left_of_the_processes(path):
+    before = count_descriptors()
+    workspace = Workspace()
+    workspace.expansion_server = server = expansion_server.ExpansionServer()
+    for _ in range(3):
+        assert 'name="2"' in expand(path, workspace).text
+    pid = server._process.pid
+    server.close()
+    assert count_descriptors() == before
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
+def test_the_processes_end_with_the_connection(path, base):
+    expand(path, base)
+    base.expansion_server.prepare()
+    pid = base.expansion_server._process.pid
+    base.expansion_server._connection.close()
+    until = time.monotonic() + 30
+    while os.waitpid(pid, os.WNOHANG) == (0, 0):
+        assert time.monotonic() < until
+        time.sleep(0.01)
+    base.expansion_server._process.kill = base.expansion_server._process.wait = lambda: 0
