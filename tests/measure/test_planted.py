@@ -5,7 +5,15 @@ import pytest
 from measure.planted.__main__ import PAGE, TITLES
 from measure.planted.measure import CHANGES, differing
 
-EACH = [(form, planted) for form, changes in CHANGES.items() for planted in changes]
+
+def list_changes():
+    """List the changes of each format: the first of each row, and the others, which are slow."""
+    for form, changes in CHANGES.items():
+        rows = set()
+        for planted in changes:
+            marks = [pytest.mark.slow] if planted.row in rows else []
+            rows.add(planted.row)
+            yield pytest.param(form, planted, marks=marks, id=f"{form}: {planted.what}")
 
 
 @pytest.fixture(autouse=True)
@@ -19,7 +27,7 @@ def test_nothing_is_found_where_nothing_is_changed(form):
     assert [(check.name, check.differing) for check in differing(form, None)] == []
 
 
-@pytest.mark.parametrize(("form", "planted"), EACH, ids=[f"{f}: {p.what}" for f, p in EACH])
+@pytest.mark.parametrize(("form", "planted"), list_changes())
 def test_a_change_is_found_in_its_row(form, planted):
     assert planted.row in [check.name for check in differing(form, planted)]
 
