@@ -34,6 +34,7 @@ demo: $(BIN)/urdftool
 	$(BIN)/urdftool graph $(SOUND) -o -
 	$(BIN)/urdftool inertia robot $(SOUND)
 	$(BIN)/urdftool export sdf $(SOUND) -o $(VENV)/demo_arm --verify
+	$(BIN)/urdftool collision mesh fixtures/meshes/cube.stl --method hull --no-cache
 
 # what most changes need: no simulator, no mesh library
 dev:
@@ -57,7 +58,7 @@ check-rule:
 test: $(VENV)/.dev
 	$(BIN)/python -m pytest -m "not slow" $(PARALLEL)
 
-# the command line as pip installs it without an extra, and then every extra, from wheels alone
+# the command line as pip installs it without an extra, from wheels alone
 CORE := build/core
 CORE_TESTS := tests/commands tests/lint tests/rules tests/graph tests/info tests/test_extras.py
 test-core:
@@ -67,8 +68,6 @@ test-core:
 	$(CORE)/bin/python -m tests.installed_size
 	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: '.[test-core]'
 	$(CORE)/bin/python -m pytest -q -m "not slow" $(PARALLEL) $(CORE_TESTS)
-	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: '.[all]'
-	$(CORE)/bin/urdftool collision mesh fixtures/meshes/cube.stl --method hull --no-cache
 
 # tests of other programs: Gazebo's reader, Graphviz, other shells; the default run does not see them
 test-programs: $(VENV)/.dev
