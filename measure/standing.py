@@ -3,7 +3,8 @@
 Robots of example-robot-data and pybullet_data are exported as ``urdftool export mjcf`` does, and
 stepped in MuJoCo from the key ``home`` for 2 s, at the step that the model has and at 5 ms. A line
 for each robot says what is wrong; the last lines count. The program shares no code with the row
-``runs`` of the export's proof.
+``runs`` of the export's proof. ``--simulate`` also runs ``urdftool simulate`` in MuJoCo, and counts
+the robots of which both say that they stand, or that they do not.
 """
 
 from __future__ import annotations
@@ -29,17 +30,29 @@ SECONDS, BEYOND, DRIFT, TILT = 2.0, 0.01, 0.02, 3.0
 
 @dataclass
 class Outcome:
-    """What became of one robot: sentences by step [s], and why it is not exported."""
+    """What became of one robot.
+
+    Attributes:
+        name: Its folder and file.
+        refused: Why it is not exported.
+        is_free: Whether its base is free.
+        is_driven: Whether it has a servo.
+        faults: Sentences on the stepped export, by step [s].
+        simulated: Codes of the faults that ``simulate`` finds; None if it was not run.
+        unsimulated: Why ``simulate`` refuses it.
+    """
 
     name: str
     refused: str = ""
     is_free: bool = False
     is_driven: bool = False
     faults: dict[float, list[str]] = field(default_factory=dict)
+    simulated: list[str] | None = None
+    unsimulated: str = ""
 
 
-def try_robot(path: Path, choices: Mapping[str, Any]) -> Outcome:
-    """Export a robot and step it."""
+def try_robot(path: Path, choices: Mapping[str, Any], simulates: bool = False) -> Outcome:
+    """Export a robot and step it, and run ``simulate``."""
     from urdftool import export_mjcf, load
     from urdftool.errors import UrdftoolError
 
@@ -59,7 +72,24 @@ def try_robot(path: Path, choices: Mapping[str, Any]) -> Outcome:
             outcome.refused = " ".join(str(error).split())
             return outcome
         step(Path(folder) / "m_scene.xml", outcome)
+    if simulates:
+        _simulate(robot, outcome)
     return outcome
+
+
+def _simulate(robot: Any, outcome: Outcome) -> None:
+    """Run ``simulate`` in MuJoCo, on the base that the export has."""
+    from urdftool import simulate
+    from urdftool.errors import UrdftoolError
+    from urdftool.simulation.settings import Settings
+
+    settings = Settings(fixed_base=not outcome.is_free, time_limit=120)
+    try:
+        verdict = simulate(robot, settings, engine="mujoco")[0]
+    except UrdftoolError as error:
+        outcome.unsimulated = " ".join(str(error).split())
+        return
+    outcome.simulated = sorted({fault.code for fault in verdict.faults if fault.fell})
 
 
 def step(scene: Path, outcome: Outcome) -> None:
@@ -111,20 +141,43 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--only", default="", metavar="WORD", help="Part of the path of a robot.")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="Worker processes.")
     parser.add_argument("--actuators", help="As export mjcf has it.")
+    parser.add_argument("--simulate", action="store_true", help="Run simulate, too.")
+    parser.add_argument("--part", default="1/1", metavar="K/N", help="The K-th of N parts.")
     given = parser.parse_args(arguments)
     choices = {"actuators": given.actuators} if given.actuators else {}
     paths = [path for path in (*example_robots(), *bullet_robots()) if given.only in str(path)]
+    part, parts = map(int, given.part.split("/"))
+    paths = paths[part - 1 :: parts]
+    work = partial(try_robot, choices=choices, simulates=given.simulate)
     counts: Counter[str] = Counter()
     with ProcessPoolExecutor(given.jobs) as pool:
-        for outcome in pool.map(partial(try_robot, choices=choices), paths):
+        for outcome in pool.map(work, paths):
             _count(outcome, counts)
             kind = "free" if outcome.is_free else "fixed"
             lines = [outcome.refused] if outcome.refused else []
             lines += [f"{s * 1000:g} ms: {text}" for s, of in outcome.faults.items() for text in of]
+            lines += _describe_simulation(outcome)
             print(f"- {outcome.name} ({kind})" + "".join(f"\n    - {x[:160]}" for x in lines))
+            sys.stdout.flush()
     for name, count in counts.items():
         print(f"{name}: {count}")
     return 0
+
+
+def _describe_simulation(outcome: Outcome) -> list[str]:
+    """Say what ``simulate`` finds, and whether the stepped export does not agree."""
+    if outcome.unsimulated:
+        return [f"simulate refuses: {outcome.unsimulated}"]
+    if outcome.simulated is None:
+        return []
+    found = ", ".join(outcome.simulated) or "stands"
+    return [f"simulate: {found}"] * bool(outcome.simulated) + ["DIFFER"] * (not agrees(outcome))
+
+
+def agrees(outcome: Outcome) -> bool:
+    """Tell whether ``simulate`` and the export at its own step both stand, or both do not."""
+    own = next(iter(outcome.faults.values()), [])
+    return bool(own) == bool(outcome.simulated)
 
 
 def _count(outcome: Outcome, counts: Counter[str]) -> None:
@@ -133,6 +186,10 @@ def _count(outcome: Outcome, counts: Counter[str]) -> None:
         return
     own, coarse = (list(outcome.faults.values()) * 2)[:2]
     counts["exported"] += 1
+    counts["simulated"] += outcome.simulated is not None
+    counts["simulated, stands or not as exported"] += outcome.simulated is not None and agrees(
+        outcome
+    )
     counts["no fault at the step written"] += not own
     counts["with a free base"] += outcome.is_free
     counts["with a free base, no fault at the step written"] += outcome.is_free and not own

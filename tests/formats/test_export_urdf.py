@@ -33,6 +33,31 @@ def test_the_result_equals_its_source(urdftool, write, name, text, tmp_path):
     assert (robot.joint["shoulder"].limit.lower, robot.joint["shoulder"].limit.upper) == (-1, 2)
 
 
+DRAWN = """<mujoco><worldbody><body name="base"><freejoint/>
+<geom name="seen" type="box" size="0.1 0.1 0.1" contype="0" conaffinity="0"/>
+<geom name="hit" type="box" {}/></body></worldbody></mujoco>"""
+
+
+@mujoco
+@pytest.mark.parametrize(
+    ("second", "names"),
+    [
+        ('size="0.1 0.1 0.1"', ["seen"]),
+        ('size="0.1 0.1 0.1" rgba="1 0 0 1"', ["hit"]),  # the colored one
+        ('size="0.1 0.1 0.1" pos="0 0 0.001"', ["seen", "hit"]),
+        ('size="0.1 0.1 0.101"', ["seen", "hit"]),
+    ],
+)
+def test_a_visual_that_is_drawn_twice_is_written_once(urdftool, write, tmp_path, second, names):
+    source, target = write("r.xml", DRAWN.format(second)), tmp_path / "r.urdf"
+    result = urdftool("export", "urdf", source, "-o", target, "--verify", "--strict")
+    assert result.code == 0, result.err
+    link = api.load(target).link["base"]
+    assert [visual.name for visual in link.visuals] == names
+    assert [collision.name for collision in link.collisions] == ["hit"]
+    assert urdftool("verify", source, target).code == 0
+
+
 @pytest.mark.parametrize("path", ["mechanism.sdf", pytest.param("mechanism.xml", marks=mujoco)])
 def test_every_loss_of_a_mechanism_is_announced(urdftool, tmp_path, path):
     result = urdftool("export", "urdf", READERS / path, "-o", tmp_path / "out", "--verify")

@@ -57,3 +57,15 @@ def test_base_is_turned_only_where_y_is_up(
     if roll or up == 2:
         assert base.origin is not None
         assert base.origin.xyz[2] == pytest.approx(0.32, abs=1e-6)
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.parametrize("up", [1, 2])
+def test_simulate_measures_the_tilt_from_the_turned_base(tmp_path: Path, up: int) -> None:
+    """A robot with y up stands in simulate, too, and its tilt is not that of its z axis."""
+    import urdftool
+
+    verdict = urdftool.simulate(load(write_robot(tmp_path, up=up)), engine="mujoco")[0]
+    assert verdict.stands, [fault.message for fault in verdict.faults]
+    assert verdict.rest.tilt < math.radians(1)
+    assert any(verdict.run.settings.upright_rpy) == (up == 1)

@@ -55,6 +55,6 @@ def choose_start(robot: Robot, settings: Settings) -> tuple[Settings, list[Findi
     plain = start_positions(robot)[0]
     pose = {n: v for n, v in positions.items() if n in leading and v != plain.get(n, 0.0)}
     settings = replace(settings, pose=pose | settings.pose)
-    if not any(settings.start_rpy):
-        settings = replace(settings, start_rpy=turn)
+    if not any(settings.upright_rpy):
+        settings = replace(settings, upright_rpy=turn)
     return settings, written.losses

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..mechanics.reference import Array, get_origin_matrix
 from ..model.appearance import find_unknown_script
+from ..model.drawn import list_drawn_once
 from ..model.elements import (
     Box,
     Capsule,
@@ -90,7 +91,7 @@ def _list_shapes(bodies: Bodies, body: Body, kind: str, frame: Array) -> list[Pl
     found = []
     for name, pose in body.members.items():
         link = bodies.robot.link[name]
-        shapes = link.collisions if kind == "collision" else link.visuals
+        shapes = link.collisions if kind == "collision" else list_drawn_once(bodies.robot, link)
         for shape in shapes:
             if shape.geometry is not None:
                 at = frame @ pose @ get_origin_matrix(shape.origin)

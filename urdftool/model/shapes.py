@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Union
 
 from .part import ZERO, Part, Vector
@@ -97,6 +97,13 @@ _NAMES: dict[type, str] = {
     Plane: "plane",
     Mesh: "mesh",
 }
+
+
+def has_equal_values(one: Geometry | None, other: Geometry | None) -> bool:
+    """Tell whether two geometries have one type and equal sizes and files, from any places."""
+    if one is None or other is None or type(one) is not type(other):
+        return False
+    return replace(one, provenance=None) == replace(other, provenance=None)
 
 
 def get_shape_name(geometry: Geometry) -> str:

@@ -58,7 +58,8 @@ class Settings:
         seed: Seed of the random tilts and yaws of trials.
         trials: Number of trials; all but the first start with a random tilt and yaw.
         tilt: Maximum tilt of a trial [rad].
-        start_rpy: Roll, pitch and yaw of the root at the start [rad]; set for each trial.
+        start_rpy: Roll, pitch and yaw of the upright robot at the start [rad]; set for each trial.
+        upright_rpy: Roll, pitch and yaw of the root of the upright robot [rad].
         sweep: Whether each joint is also moved through its limits.
         nudge: Angle by which gravity tilts to one side and then to the other at the start [rad],
             so that a robot balanced on a point falls.
@@ -82,6 +83,7 @@ class Settings:
     trials: int = 1
     tilt: float = 0.1
     start_rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    upright_rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
     sweep: bool = False
     nudge: float = 0.02
     time_limit: float = 60.0

@@ -40,7 +40,8 @@ def spawn_pose(
         fixed: Whether the root is fixed to the world.
         at_origin: Whether the file places the root; it is raised only if it is below the plane.
     """
-    turn = Pose(rotation_from_rpy(settings.start_rpy))
+    upright = Pose(rotation_from_rpy(settings.upright_rpy))
+    turn = Pose(rotation_from_rpy(settings.start_rpy)) @ upright
     low, high = _compute_bounds(parts, turn)
     size = float((high - low).max()) if np.isfinite(low).all() else 0.0
     if settings.height is not None:

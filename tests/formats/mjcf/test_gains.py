@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from lxml import etree
 
 import urdftool
@@ -68,6 +70,29 @@ def test_the_gain_of_a_position_servo(effort, load, value, force):
 def test_a_longer_step_has_a_lower_bound():
     short, long = (choose_position_gain("hinge", 1e6, JointLoad(1.0), dt) for dt in (0.002, 0.004))
     assert short.value == pytest.approx(4 * long.value)
+
+
+@given(seed=st.integers(0, 2**32 - 1), size=st.integers(1, 6), step=st.floats(0.1, 4.0))
+def test_servos_of_a_carried_chain_are_stable_up_to_four_steps(seed, size, step):
+    """Integrate M a = -K x - D v with implicit damping, as MuJoCo does, for any mass matrix M."""
+    factor = np.random.default_rng(seed).normal(size=(size, size))
+    mass = factor @ factor.T + 1e-3 * np.eye(size)
+    gains = [
+        choose_position_gain("hinge", 1e9, JointLoad(value, value, is_carried=True))
+        for value in np.diag(mass)
+    ]
+    stiffness = np.diag([gain.value for gain in gains])
+    h, damping = step * TIMESTEP, np.diag([gain.damping for gain in gains])
+    change = np.linalg.solve(mass + h * damping, np.hstack([-h * stiffness, mass]))
+    one = np.hstack([np.eye(size), np.zeros((size, size))]) + h * change
+    radius = abs(np.linalg.eigvals(np.vstack([one, change]))).max()
+    assert radius <= 1 + 1e-6
+
+
+def test_damping_is_that_of_the_inertia_that_bounds_the_gain():
+    carried = choose_position_gain("hinge", 1e9, JointLoad(0.5, 0.5, is_carried=True))
+    assert carried.damping == pytest.approx(2 * np.sqrt(carried.value * 0.5), rel=6e-3)
+    assert choose_position_gain("hinge", 1e9, JointLoad(0.5, 0.1)).damping is None
 
 
 def test_the_load_at_home_is_that_of_statics(write):

@@ -51,6 +51,7 @@ class JointLoad:
             ``inertia`` if the ground carries what it moves.
         force: Torque or force with which it holds the robot against gravity [N·m or N].
         stiffness: Stiffness [N·m/rad] below which a robot above its feet may tip; 0 for none.
+        is_carried: Whether the ground carries what the joint moves.
         is_singular: Whether the joint and another can turn against each other without moving mass.
     """
 
@@ -58,6 +59,7 @@ class JointLoad:
     reduced: float = 0.0
     force: float = 0.0
     stiffness: float = 0.0
+    is_carried: bool = False
     is_singular: bool = False
 
     def add_armature(self, armature: float) -> JointLoad:
@@ -108,7 +110,8 @@ def compute_joint_loads(
             joint, poses[joint.child], bodies.select(moved), points[held], forces[held]
         )
         if held.any():
-            load = replace(load, stiffness=_compute_stiffness(joint, poses[joint.child], bodies))
+            stiffness = _compute_stiffness(joint, poses[joint.child], bodies)
+            load = replace(load, stiffness=stiffness, is_carried=True)
         else:
             part = min(max(ratios[joint.name], LEAST_REDUCED), 1.0)
             load = replace(load, reduced=part * load.inertia)

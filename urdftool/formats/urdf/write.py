@@ -8,6 +8,7 @@ from pathlib import PurePath
 from lxml import etree
 
 from ...diagnostic import Severity
+from ...model.drawn import list_drawn_once
 from ...model.elements import BALL_TYPES, Collision, Joint, Link, Origin, Robot, Visual
 from ...model.mechanism import Frame
 from ..common.directory import mark
@@ -107,7 +108,7 @@ def _add_link(t: Translation, link: Link) -> None:
     contact = link.find_child_xml("contact")
     if contact is not None:
         copy_element(node, contact)
-    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    shapes: list[Visual | Collision] = [*list_drawn_once(t.robot, link), *link.collisions]
     for shape in shapes:
         add_shape(t.robot, t.written, t.meshes, node, link, shape)
 

@@ -8,7 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...diagnostic import make_deprecated_name
-from ...model.pose import IDENTITY, multiply_matrices, rotation_from_quaternion, transpose
+from ...model.pose import (
+    multiply_matrices,
+    rotation_from_quaternion,
+    rotation_from_rpy,
+    transpose,
+)
 from ..recording import GROUND, Array
 from ..run import Run
 from ..shapes import Shape, compute_lowest_height
@@ -22,7 +27,7 @@ class FinalState:
         settled: Time at which it came to rest [s]; None if it did not.
         drop: Distance by which the root sank [m].
         drift: Distance by which the root moved along the plane [m].
-        tilt: Angle between the z axis of the root and that of the world [rad].
+        tilt: Angle between the upright and the final direction of the robot [rad].
         center: Center of mass in the world [m]; None if the robot has no mass.
         margin: Distance from the center of mass, projected along gravity, to the nearest edge of
             the support polygon [m]; negative outside; None without a contact with the plane.
@@ -62,7 +67,7 @@ def measure_final_state(run: Run) -> FinalState:
         recording.still_since,
         float(first[2] - last[2]),
         float(math.hypot(*(last[:2] - first[:2]))),
-        measure_tilt(first, last, run),
+        measure_tilt(last, run),
         center,
         None if center is None else _measure_margin(run, center),
         supports,
@@ -71,11 +76,11 @@ def measure_final_state(run: Run) -> FinalState:
     )
 
 
-def measure_tilt(first: Array, last: Array, run: Run) -> float:
-    """Measure the angle between the z axis of the root and that of the world at the end [rad]."""
+def measure_tilt(last: Array, run: Run) -> float:
+    """Measure the angle between the upright and the final direction of the robot [rad]."""
     x, y, z, w = last[3:]
     now = rotation_from_quaternion((w, x, y, z))
-    upright = IDENTITY.rotation
+    upright = rotation_from_rpy(run.settings.upright_rpy)
     turned = multiply_matrices(now, transpose(upright))
     return math.acos(max(-1.0, min(1.0, turned[2][2])))
 
