@@ -52,7 +52,7 @@ LARGE_MJCF = {
 SLOW_MJCF = {
     "keyframes": mjcf(before='<size nkey="1000000000"/>'),
     "bodies": mjcf(
-        '<replicate count="60000" offset="1 0 0"><body><geom size=".1"/></body></replicate>'
+        '<replicate count="12000" offset="1 0 0"><body><geom size=".1"/></body></replicate>'
     ),
     "length range": mjcf(
         before='<compiler><lengthrange mode="all" inttotal="1e9" timestep="1e-9"/></compiler>'

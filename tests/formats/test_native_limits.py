@@ -14,6 +14,8 @@ import pytest
 from tests.conftest import ROOT
 from tests.formats import native_bombs as bombs
 from urdftool.errors import ModelError, SourceError
+from urdftool.formats.mjcf import read as read_mjcf
+from urdftool.formats.usd import read as read_usd
 from urdftool.model.elements import Mesh
 from urdftool.workspace import Workspace
 
@@ -105,20 +107,18 @@ def test_the_memory_of_openusd_is_limited(tmp_path):
     assert run("info", bombs.write_instancer(tmp_path))[0] == 0  # its arrays are not read
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", bombs.SLOW_MJCF)
-def test_the_processor_time_of_mujoco_is_limited(tmp_path, name):
+def test_the_processor_time_of_mujoco_is_limited(tmp_path, monkeypatch, name):
+    monkeypatch.setattr(read_mjcf, "LIMITS", read_mjcf.LIMITS._replace(processor=1.0))
     path = write(tmp_path, name, ".xml", bombs.SLOW_MJCF[name])
-    code, _, err = run("info", path)
-    assert code == 2
-    assert "15 s of processor time" in err
+    with pytest.raises(ModelError, match="1 s of processor time"):
+        read(path)
 
 
-@pytest.mark.slow
-def test_the_processor_time_of_openusd_is_limited(tmp_path):
-    code, _, err = run("info", bombs.write_bodies(tmp_path))
-    assert code == 2
-    assert "15 s of processor time" in err
+def test_the_processor_time_of_openusd_is_limited(tmp_path, monkeypatch):
+    monkeypatch.setattr(read_usd, "LIMITS", read_usd.LIMITS._replace(processor=1.0))
+    with pytest.raises(ModelError, match="1 s of processor time"):
+        read(bombs.write_bodies(tmp_path))
 
 
 COMMANDS = (

@@ -30,6 +30,8 @@ class Body:
         members: Pose of each link in the frame of the body, 4 × 4.
         joints: Moving joints whose parent is one of the links.
         frames: Named frames on the links, with their poses in the frame of the body.
+        written: Pose of the frame in which the source writes the topmost link, in the frame of the
+            body; None if it is that frame.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Body:
     members: dict[str, Array] = field(default_factory=dict)
     joints: list[Joint] = field(default_factory=list)
     frames: dict[str, tuple[Frame, Array]] = field(default_factory=dict)
+    written: Array | None = None
 
 
 class Bodies:
@@ -97,6 +100,8 @@ class Bodies:
                 body = self.by_name[owner]
                 pose = body.members[frame.link] @ get_origin_matrix(frame.origin)
                 body.frames.setdefault(frame.name, (frame, pose))
+            elif frame.kind == "body" and frame.link in self.by_name:
+                self.by_name[frame.link].written = get_origin_matrix(frame.origin)
         self.root, self.is_free = self._find_base(top.name)
 
     def _find_base(self, root: str) -> tuple[str, bool | None]:

@@ -27,6 +27,7 @@ from .origins import (
     compute_parent_frame,
     describe_origin,
     find_least_offset,
+    get_member_poses,
     has_same_parent,
 )
 from .pair import Match, Pair, add_presence, locate, make_pair
@@ -298,8 +299,8 @@ def _add_missing_sites(pair: Pair, match: Match, comparison: Comparison) -> None
 
 def _is_moved(match: Match, x: str, y: str) -> bool:
     """Tell whether a link is at another pose in its body."""
-    offset = invert(match.one.members[x]) @ match.frame @ match.two.members[y]
-    return measure_largest(offset) > 1e-6
+    one, two = get_member_poses(match, x, y)
+    return measure_largest(invert(one) @ two) > 1e-6
 
 
 def _put_members_at(match: Match, members: list[tuple[str, str]]) -> Match:
@@ -315,7 +316,7 @@ def _put_members_at(match: Match, members: list[tuple[str, str]]) -> Match:
 
 def _compare_frame(pair: Pair, match: Match, x: str, y: str, comparison: Comparison) -> None:
     """Compare the pose of a link that a fixed joint connects to the body."""
-    one, two = match.one.members[x], match.frame @ match.two.members[y]
+    one, two = get_member_poses(match, x, y)
     offset = invert(one) @ two
     above = pair.a.robot.tree.get_parent_joint(x), pair.b.robot.tree.get_parent_joint(y)
     owner = match.one.name
@@ -329,7 +330,6 @@ def _compare_frame(pair: Pair, match: Match, x: str, y: str, comparison: Compari
                 one, two, owner = local, other, parents[0]
                 offset = invert(one) @ two
     links = pair.a.robot.link[x], pair.b.robot.link[y]
-    joints = pair.a.robot.tree.get_parent_joint(x), pair.b.robot.tree.get_parent_joint(y)
     comparison.add(
         Difference(
             "frames",
@@ -339,7 +339,7 @@ def _compare_frame(pair: Pair, match: Match, x: str, y: str, comparison: Compari
             (describe_pose(one), describe_pose(two)),
             "m, rad",
             measure_largest(offset),
-            (locate(joints[0], links[0]), locate(joints[1], links[1])),
+            (locate(above[0], links[0]), locate(above[1], links[1])),
             describe_motion(offset),
         )
     )

@@ -43,6 +43,10 @@ def compare_inertia(pair: Pair, match: Match, comparison: Comparison) -> None:
             comparison.merge(trial)
     if not rest and not rest2:
         return
+    filled = _compare_with_placeholders(pair, match, len(one) + len(two), comparison)
+    if filled is not None:
+        comparison.merge(filled)
+        return
     common = [x for x in names if x in rest]
     merged = _find_merged(pair, match, names, (rest, rest2), comparison)
     for x in common:
@@ -64,6 +68,21 @@ def compare_inertia(pair: Pair, match: Match, comparison: Comparison) -> None:
     _add_unmatched(pair, match, one, two, comparison)
     if len(comparison.differences) == before:
         comparison.merge(total)
+
+
+def _compare_with_placeholders(
+    pair: Pair, match: Match, count: int, comparison: Comparison
+) -> Comparison | None:
+    """Compare both bodies with their placeholders; None without any, or if they are not equal.
+
+    Lumping adds the mass of a placeholder to another link.
+    """
+    one = _list_massive(pair.a, match.one, np.eye(4), least=0.0)
+    two = _list_massive(pair.b, match.two, match.frame, least=0.0)
+    if len(one) + len(two) == count:
+        return None
+    whole = _compare_rest(pair, match, [], one, two, comparison)
+    return whole if whole.is_equal else None
 
 
 def _find_merged(
@@ -197,12 +216,14 @@ def _add_unmatched(
             comparison.add(Difference("mass", "link", names, "mass", values, "kg", 1.0, places))
 
 
-def _list_massive(bodies: Bodies, body: Body, frame: Array) -> dict[str, Properties]:
+def _list_massive(
+    bodies: Bodies, body: Body, frame: Array, least: float = _MASSLESS
+) -> dict[str, Properties]:
     """Return mass [kg], center [m] and tensor [kg·m²] of the links that have any, by name."""
     found = {}
     for name, pose in body.members.items():
         properties = compute_mass_properties(bodies.robot.link[name], frame @ pose)
-        if properties is not None and (properties[0] > _MASSLESS or not properties[0]):
+        if properties is not None and (properties[0] > least or not properties[0]):
             found[name] = properties
     return found
 
@@ -292,5 +313,6 @@ def _measure_tensors(one: Array, two: Array, mass: float) -> float:
 
 
 def _format_tensor(tensor: Array) -> str:
-    """Format xx xy xz yy yz zz."""
-    return format_vector(tensor[np.triu_indices(3)])
+    """Format xx xy xz yy yz zz with six digits; what is rounding beside the largest is zero."""
+    six = tensor[np.triu_indices(3)]
+    return " ".join(f"{x:.6g}" for x in np.where(abs(six) > 1e-12 * abs(six).max(), six, 0.0))

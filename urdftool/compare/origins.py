@@ -22,6 +22,21 @@ def find_least_offset(pair: Pair, match: Match, one: Array, two: Array) -> Array
     return min(offsets, key=measure_largest)
 
 
+def get_member_poses(match: Match, x: str, y: str) -> tuple[Array, Array]:
+    """Return the poses of a link of both bodies in the first, 4 × 4.
+
+    A reader that puts link frames at joints moves that of a topmost link. Where the link is below a
+    fixed joint in the other robot, the frame that the source writes is compared.
+    """
+    one, two = match.one.members[x], match.two.members[y]
+    is_top = x == match.one.name, y == match.two.name
+    if is_top == (False, True) and match.two.written is not None:
+        two = match.two.written
+    if is_top == (True, False) and match.one.written is not None:
+        one = match.one.written
+    return one, match.frame @ two
+
+
 def choose_parent_frame(pair: Pair, x: Joint, y: Joint, frame: Array) -> Array:
     """Return the pose of the second parent body in the first for the origin of a joint.
 

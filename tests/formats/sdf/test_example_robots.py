@@ -13,8 +13,19 @@ from urdftool.model.load import load
 
 pytestmark = pytest.mark.slow
 
-ALLOWED = 4
-"""How many of the 68 may have differences, all of them announced."""
+ANNOUNCED = {
+    "alex_psyonic_hands": {"tree"},  # mimic joints whose leader does not exist
+    "hyq_no_sensors": {"sensors"},  # frames that sensors of SDF do not name
+    "tiago_pro": {"sensors"},
+    "icub": {"inertia"},  # a tensor of 1e-18 kg·m² is lifted
+    "icub_reduced": {"inertia"},
+    "iris_simple": {"mass matrix", "gravity"},  # a floating joint: not compared
+    "quadrotor_base": {"mass matrix", "gravity"},
+    "pr2": {"looks", "other elements"},  # material scripts, elements of Gazebo before 1.0
+    "romeo_laas_small": {"inertia", "visuals", "mass", "mass matrix"},  # impossible tensors, no mesh
+    "romeo_small": {"inertia", "mass matrix"},
+}
+"""Rows that are announced, or not compared, by robot; all others are equal."""
 
 
 def robots():
@@ -28,16 +39,15 @@ def robots():
 
 @pytest.mark.skipif(not robots(), reason="example-robot-data is not installed")
 @pytest.mark.parametrize(
-    ("choices", "allowed"),
+    ("choices", "announced"),
     [
-        ({}, ALLOWED),
-        ({"fixed_joints": "lump"}, ALLOWED),
-        ({"target": "gazebo-classic"}, 68),
-        ({"target": "gazebo-classic", "version": "1.6"}, 68),
+        ({}, ANNOUNCED),
+        ({"fixed_joints": "lump"}, ANNOUNCED),
+        ({"target": "gazebo-classic"}, None),
+        ({"target": "gazebo-classic", "version": "1.6"}, None),
     ],
 )
-def test_all_are_the_same_robots(choices, allowed, tmp_path):
-    other = []
+def test_all_are_the_same_robots(choices, announced, tmp_path):
     for path in robots():
         robot = load(path, package_paths=[path.parents[3].parent])
         options = Options(force=True, uri="file", file="m.sdf", **choices)
@@ -46,6 +56,5 @@ def test_all_are_the_same_robots(choices, allowed, tmp_path):
         place.write_bytes(written.files["m.sdf"])
         checks = compare(read_pair(robot, written, place, options))
         assert is_faithful(checks), (path, [check.differing for check in checks])
-        if any(check.verdict not in WITHOUT_DIFFERENCE for check in checks):
-            other.append(path.stem)
-    assert len(other) <= allowed, other
+        rows = {check.name for check in checks if check.verdict not in WITHOUT_DIFFERENCE}
+        assert announced is None or rows <= announced.get(path.stem, set()), path
