@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,7 +14,6 @@ from ..model.world import weld_base
 from ..source.description import GltfUp
 
 if TYPE_CHECKING:
-    from ..finding import Finding
     from ..formats.common.cut import Cut, Cutter
     from ..formats.common.option import Actuators, Base, FixInertia
     from ..formats.mjcf.options import Exclude, Purpose
@@ -71,6 +69,7 @@ def export_sdf(
     from ..formats.registry import format_named
     from ..formats.sdf.options import Options, get_folder_and_file
     from .overlaps import find_overlaps
+    from .plugin_checks import check_plugins
 
     choices = {
         "target": target,
@@ -173,6 +172,7 @@ def export_mjcf(
     from ..formats.mjcf.options import Options
     from ..formats.registry import format_named
     from .pair_proofs import prove_srdf_pairs
+    from .plugin_checks import check_plugin_names
 
     mjcf, robot = format_named("mjcf"), weld_base(robot)
     name = Path(output).name if output is not None else ""
@@ -206,53 +206,11 @@ def export_mjcf(
         proofs=proofs.texts,
     ).complete()
     written = mjcf.write(robot, options)
-    written.losses += proofs.findings
+    written.losses += [*proofs.findings, *check_plugin_names(robot)]
     written.checks = finish_export(
         mjcf, robot, options, written, output, verify=verify, overwrite=overwrite
     )
     return written
-
-
-PLUGIN_RULES = (
-    "plugin-unknown-entity",
-    "plugin-class-mismatch",
-    "unknown-extension",
-    "duplicate-plugin-name",
-    "drive-size-mismatch",
-    "drive-direction-mismatch",
-)
-"""Lint rules on parameters with which a simulator loads a plugin that then does not work."""
-
-
-def check_plugins(robot: Robot, target: str) -> list[Finding]:
-    """Check the parameters of the plugins of a robot by lint rules.
-
-    Args:
-        robot: The robot.
-        target: ``gz`` or ``gazebo-classic``.
-
-    Returns:
-        Findings as warnings, each with its place in the description.
-    """
-    from ..diagnostic import Severity
-    from ..errors import ConfigError
-    from .lint import check
-
-    if robot.source is None or not robot.plugins:
-        return []
-    try:
-        findings = check(robot, select=PLUGIN_RULES, targets=(target,))
-    except ConfigError:  # of the lint configuration, reported by lint
-        return []
-    return [replace(f, severity=Severity.WARNING) for f in findings if _is_of_plugin(robot, f)]
-
-
-def _is_of_plugin(robot: Robot, finding: Finding) -> bool:
-    place = finding.location
-    return any(
-        plugin.place.path == place.path and plugin.element.start <= place.start < plugin.element.end
-        for plugin in robot.plugins
-    )
 
 
 def measure_overlap(

@@ -76,6 +76,7 @@ def export_usd(
     from .export import make_cutter
     from .overlaps import find_overlaps
     from .pair_proofs import prove_srdf_pairs
+    from .plugin_checks import check_plugin_names
 
     choices = {
         "target": target,
@@ -110,7 +111,7 @@ def export_usd(
 
         check_replaced(Path(output))
     written = usd.write(robot, options)
-    written.losses += proofs.findings
+    written.losses += [*proofs.findings, *check_plugin_names(robot)]
     written.checks = finish_export(
         usd, robot, options, written, output, verify=verify, overwrite=overwrite
     )

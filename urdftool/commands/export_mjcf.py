@@ -55,6 +55,7 @@ def command(
         urdftool export mjcf quadruped.urdf.xacro -o q/ --scene --for rl
     """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..api.export import make_cutter, measure_overlap
+    from ..api.plugin_checks import check_plugin_names
     from ..formats.registry import format_named
     from ..model.world import weld_base
     from .export_report import run_export
@@ -80,5 +81,5 @@ def command(
         options,
         place,
         choices,
-        more_checks=lambda _: proofs.findings,
+        more_checks=lambda robot: [*proofs.findings, *check_plugin_names(robot)],
     )

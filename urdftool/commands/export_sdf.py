@@ -53,8 +53,8 @@ def command(
         urdftool export sdf arm.urdf.xacro -o arm/ --verify
         urdftool export sdf mira.urdf -o mira.sdf --target gazebo-classic
     """  # noqa: D301 -- click reads the escape
-    from ..api.export import check_plugins
     from ..api.overlaps import find_overlaps
+    from ..api.plugin_checks import check_plugins
     from ..formats.registry import format_named
     from ..model.world import weld_base
     from .export_report import run_export

@@ -71,6 +71,7 @@ def command(
     """  # noqa: D301 -- click's mark for lines it must not wrap
     from ..api.export import make_cutter
     from ..api.overlaps import find_overlaps
+    from ..api.plugin_checks import check_plugin_names
     from ..extras import require
     from ..formats.registry import format_named
     from .export_report import run_export
@@ -104,7 +105,7 @@ def command(
         options,
         place,
         choices,
-        more_checks=lambda _: proofs.findings,
+        more_checks=lambda robot: [*proofs.findings, *check_plugin_names(robot)],
     )
     if isaaclab is not None and code < 2:
         from ..formats.usd.isaaclab import write_config

@@ -22,7 +22,12 @@ ANNOUNCED = {
     "iris_simple": {"mass matrix", "gravity"},  # a floating joint: not compared
     "quadrotor_base": {"mass matrix", "gravity"},
     "pr2": {"looks", "other elements"},  # material scripts, elements of Gazebo before 1.0
-    "romeo_laas_small": {"inertia", "visuals", "mass", "mass matrix"},  # impossible tensors, no mesh
+    "romeo_laas_small": {
+        "inertia",
+        "visuals",
+        "mass",
+        "mass matrix",
+    },  # impossible tensors, no mesh
     "romeo_small": {"inertia", "mass matrix"},
 }
 """Rows that are announced, or not compared, by robot; all others are equal."""

@@ -140,3 +140,11 @@ def test_an_unknown_material_is_said():
     assert rules(written) == ["lossy-material"]
     said = gazebo("a", "<material><diffuse>0 1 0 1</diffuse></material>")
     assert next(tree(export(part, said)).iter("diffuse")).text == "0 1 0 1"
+
+
+def test_a_rejected_setting_is_reported_once(urdftool, write):
+    block = "<gazebo><static>x</static></gazebo><gazebo reference='a'><mu1>abc</mu1></gazebo>"
+    path = write("r.urdf", f"<robot name='r'><link name='a'>{inertial()}</link>{block}</robot>")
+    lines = urdftool("export", "sdf", path, "-o", "out", "--force").err.splitlines()
+    assert sum("'abc'" in line for line in lines) == 1
+    assert sum("'x'" in line for line in lines) == 1

@@ -30,6 +30,16 @@ def test_a_plugin_that_cannot_work_is_a_warning_with_its_place(urdftool, write):
     assert "has the unknown parameter <wheel_seperation>; write <wheel_separation>" in done.err
 
 
+@pytest.mark.parametrize("name", ["mjcf", "usd"])
+def test_exports_that_read_drives_of_plugins_name_it_once(urdftool, write, name):
+    pytest.importorskip("mujoco" if name == "mjcf" else "pxr")
+    done = urdftool("export", name, write("r.urdf", ROBOT), "-o", "out")
+    assert done.code == 0
+    assert done.err.count("has no such joint; did you mean 'wheel'? [plugin-unknown-entity]") == 1
+    assert "unknown-extension" not in done.err
+    assert urdftool("export", name, "r.urdf", "-o", "strict", "--strict").code == 2
+
+
 def test_strict_refuses_it(urdftool, write, tmp_path):
     done = urdftool("export", "sdf", write("r.urdf", ROBOT), "-o", "out", "--strict")
     assert done.code == 2

@@ -82,3 +82,36 @@ def test_what_was_announced_is_no_failure(tmp_path):
     checks = checks_of(tmp_path, version="1.9")
     assert checks["tree"].verdict == "announced"
     assert checks_of(tmp_path, quiet=True, version="1.9")["tree"].verdict == "differs"
+
+
+MASSLESS_MOVED = """<robot name="m">
+ <link name="a"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+ <link name="b"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+ <link name="c"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+ <link name="tip"><inertial><mass value="1e-9"/><inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial></link>
+ <joint name="j" type="continuous"><parent link="a"/><child link="b"/><origin xyz="0 0 5"/></joint>
+ <joint name="f" type="fixed"><parent link="b"/><child link="c"/><origin xyz="0 0 3"/></joint>
+ <joint name="t" type="fixed"><parent link="c"/><child link="tip"/><origin xyz="0 9 0"/></joint>
+</robot>"""  # noqa: E501
+
+
+@pytest.mark.parametrize(
+    ("fixed_joints", "change", "found"),
+    [
+        ("keep", "", set()),
+        ("lump", "", set()),
+        ("keep", "0 0 3 0 0 0", {"frames", "center of mass", "mass matrix", "gravity"}),
+    ],
+)
+def test_a_body_whose_topmost_link_has_no_mass(write, tmp_path, fixed_joints, change, found):
+    """The link frame of 'c' is written below a fixed joint, and a placeholder is lumped."""
+    from urdftool.formats.sdf.write import write as write_sdf
+
+    source, options = load(write("m.urdf", MASSLESS_MOVED)), Options(fixed_joints=fixed_joints)
+    written = write_sdf(source, options)
+    place = tmp_path / "model.sdf"
+    text = written.files["model.sdf"].decode()
+    assert change in text
+    place.write_text(text.replace(change, "0 0 4 0 0 0") if change else text)
+    checks = compare(read_pair(source, written, place, options))
+    assert {check.name for check in checks if check.differing} == found

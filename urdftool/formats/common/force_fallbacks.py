@@ -29,6 +29,9 @@ FALLBACKS = {
 }
 """The fallback of each defect that has one which does not depend on the case."""
 
+REPORTED_AS = {"bad-extension-number": "lossy-extension", "mesh-not-found": "lossy-mesh"}
+"""Code of the loss by which a writer reports a defect itself, at its element."""
+
 
 def drop_invalid_parts(robot: Robot) -> Robot:
     """Drop links and joints that nothing can refer to, and joints that refer to nothing.
@@ -69,13 +72,15 @@ def report_tree_defects(robot: Robot, left: Robot, forced: bool) -> Iterator[Fin
 
 
 def report_passed_defects(written: Written, found: Iterable[Finding]) -> None:
-    """Report the defects that ``--force`` passed, each with its fallback.
+    """Report the defects that ``--force`` passed and the writer did not, each with its fallback.
 
     Args:
         written: The export.
         found: The defects.
     """
     for finding in found:
+        if _is_reported(written, finding):
+            continue
         fallback = FALLBACKS.get(finding.code)
         written.report_loss(
             finding.code,
@@ -85,3 +90,13 @@ def report_passed_defects(written: Written, found: Iterable[Finding]) -> None:
             name=finding.name,
             hint=f"accepted by --force; {fallback}" if fallback else "accepted by --force",
         )
+
+
+def _is_reported(written: Written, finding: Finding) -> bool:
+    place, code = finding.location, REPORTED_AS.get(finding.code)
+    return code is not None and any(
+        loss.code == code
+        and loss.location.path == place.path
+        and loss.location.start <= place.start < loss.location.end
+        for loss in written.losses
+    )

@@ -5,7 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ...mechanics.tensor import SymmetricTensor, compute_principal_moments
+from ...mechanics.tensor import (
+    ROUNDING,
+    WRITTEN_ROUNDING,
+    SymmetricTensor,
+    compute_principal_moments,
+)
 from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.elements import Inertial, Link, Robot, Vector
 from ...model.kinematics import MOVABLE, get_limits, link_poses
@@ -48,7 +53,9 @@ _NOT_GAZEBO = ("mujoco", "pybullet", "urdfdom, KDL, pinocchio", "drake")
     },
     formats=ANY_FORMAT,
 )
-def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> Iterator[Problem]:
+def inertia_not_positive_definite(
+    robot: Robot, *, tolerance: float = ROUNDING
+) -> Iterator[Problem]:
     """An inertia tensor has a negative principal moment.
 
     About that axis the body would rotate against the torque. A sign is wrong, or a product of
@@ -84,7 +91,7 @@ def inertia_not_positive_definite(robot: Robot, *, tolerance: float = 1e-6) -> I
     formats=ANY_FORMAT,
 )
 def inertia_triangle_inequality(
-    robot: Robot, *, tolerance: float = 1e-6, rounding: float = 0.01
+    robot: Robot, *, tolerance: float = ROUNDING, rounding: float = WRITTEN_ROUNDING
 ) -> Iterator[Problem]:
     """The largest principal moment is larger than the sum of the other two.
 
@@ -97,7 +104,7 @@ def inertia_triangle_inequality(
     for link, inertial, six in get_tensors(robot):
         moments = low, middle, high = compute_principal_moments(six)
         excess = high - low - middle
-        if excess <= EXACT * high or not is_positive(six, tolerance):
+        if excess <= tolerance * high or not is_positive(six, tolerance):
             continue
         if inertial.inertia is None:
             continue
@@ -141,7 +148,7 @@ def write_possible_inertia(problem: Problem, context: FixContext) -> Proposal | 
     formats=ANY_FORMAT,
 )
 def inertia_triangle_inequality_rounding(
-    robot: Robot, *, tolerance: float = EXACT, rounding: float = 0.01
+    robot: Robot, *, tolerance: float = EXACT, rounding: float = WRITTEN_ROUNDING
 ) -> Iterator[Problem]:
     """The largest principal moment exceeds the sum of the others by a rounding error.
 
@@ -154,7 +161,8 @@ def inertia_triangle_inequality_rounding(
         excess = high - low - middle
         if inertial.inertia is None or low < 0 or excess <= tolerance * high:
             continue
-        if excess <= min(rounding * high, compute_rounding(inertial.inertia)):
+        explained = min(rounding * high, compute_rounding(inertial.inertia))
+        if excess <= max(explained, ROUNDING * high):
             yield Problem(
                 link,
                 f"principal moment {high:.9g} of link '{link.name}' exceeds the sum of the others "

@@ -8,6 +8,7 @@ from decimal import Decimal, InvalidOperation
 
 from ...mechanics.tensor import (
     COMPONENTS,
+    ROUNDING,
     SymmetricTensor,
     compute_principal_moments,
     get_noise,
@@ -78,13 +79,14 @@ def is_zero(six: SymmetricTensor, mass: float) -> bool:
     return max(map(abs, six)) <= get_noise(mass)
 
 
-def is_positive(six: SymmetricTensor, tolerance: float = 1e-6) -> bool:
+def is_positive(six: SymmetricTensor, tolerance: float = ROUNDING) -> bool:
     """Tell whether no principal moment is negative, except for rounding."""
     return measure_consistency(six).negativity <= tolerance
 
 
 EXACT = 1e-12
-"""Relative error of computed principal moments. Chosen, no source."""
+"""Relative error of computed principal moments, above which Gazebo and MuJoCo, which have no
+tolerance, reject a tensor. Chosen, no source."""
 
 
 def is_accepted(six: SymmetricTensor) -> bool:
