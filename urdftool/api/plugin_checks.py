@@ -1,4 +1,4 @@
-"""What an export says of the plugins of a robot: the findings of lint rules on them."""
+"""Findings of lint rules on the plugins of a robot, which exports report as losses."""
 
 from __future__ import annotations
 

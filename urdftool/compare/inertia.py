@@ -313,6 +313,6 @@ def _measure_tensors(one: Array, two: Array, mass: float) -> float:
 
 
 def _format_tensor(tensor: Array) -> str:
-    """Format xx xy xz yy yz zz with six digits; what is rounding beside the largest is zero."""
+    """Format xx xy xz yy yz zz with six digits; rounding relative to the largest is zero."""
     six = tensor[np.triu_indices(3)]
     return " ".join(f"{x:.6g}" for x in np.where(abs(six) > 1e-12 * abs(six).max(), six, 0.0))
