@@ -29,7 +29,7 @@ def for_each_module(test):
 
 BASE = (
     *("control_characters", "errors", "extras", "suggestions", "arguments", "parallel", "cluster"),
-    *("cluster_child", "landlock", "isolated"),
+    *("cluster_child", "landlock", "isolated", "resident_memory"),
     *(
         "limited",
         "exchange",
@@ -391,7 +391,7 @@ OPENERS = {
     "leftovers.py": "names beside an output",
     "parallel.py": "memory of this process",
     "source/expansion_child.py": "the null device",
-    "source/resident_memory.py": "memory of this process",
+    "resident_memory.py": "memory of this process",
     "lint/baseline.py": NAMED,
     "lint/cache.py": "entries of the cache",
     "fmt/discover.py": "lists the folder that the user names",

@@ -76,6 +76,8 @@ def test_all_that_is_opened_or_listed_is_a_dependency():
 OF_PROCESSES = {
     ("source/access.py", "environ"),
     ("source/expansion_child.py", "environ"),  # of the process that expands: emptied
+    ("source/expansion_process.py", "environ"),
+    ("source/expansion_server.py", "environ"),
 }
 """Modules that use the environment of processes, which no description reads."""
 

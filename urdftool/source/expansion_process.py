@@ -157,9 +157,10 @@ def _serve_requests(
     known = len(files.files)
     while True:
         request, _ = channel.receive(MAX_ANSWER)
-        name, arguments = str(request[0]), [str(word) for word in request[1:]]
+        name = str(request[0])
         if name == "result":
             return list(request[1:])
+        arguments = [str(word) for word in request[1:]]
         if name == "import":
             modules.update(_ON_DEMAND.intersection(arguments))
             raise _RequiresModules

@@ -14,14 +14,15 @@ from importlib import import_module
 from typing import Any, NoReturn
 
 from ..parallel import ignore_interrupts
+from ..resident_memory import get_heap, list_writable_ranges, map_pages
 from .expansion_channel import Channel, Ended
 from .expansion_child import close_files, expand_job, import_modules, restrict_process
 from .expansion_requests import PLACE
 from .expressions import Expression, compile_expression
 from .last_expansion import Prepared
 from .location import SourceFile
-from .resident_memory import list_writable_ranges, populate, reserve_heap
 from .xacro_parse import parse_xacro
+from .xacro_tree import XacroElement
 
 MODULES = (
     "ctypes",
@@ -35,7 +36,7 @@ _READY = struct.Struct("d")  # processor time [s] of a process when it is ready
 
 
 def serve() -> NoReturn:
-    """Answer the checking process until it ends; the main function of a new interpreter."""
+    """Serve the checking process until it ends; the main function of a new interpreter."""
     with socket.socket(fileno=os.dup(0)) as connection:
         os.dup2(1, 0)  # the null device
         serve_connection(connection)
@@ -43,11 +44,10 @@ def serve() -> NoReturn:
 
 
 def serve_connection(connection: socket.socket) -> None:
-    """Answer the messages of a connection until the other side closes it."""
+    """Serve a connection until the other side closes it."""
     ignore_interrupts()
     gc.disable()
     import_modules(MODULES)
-    import_module(".xacro_hooks", __package__)
     server = _Server(connection)
     with suppress(Ended, OSError):
         server.run()
@@ -65,14 +65,15 @@ class _Server:
         self._pid: int | None = None
         self._mark = mmap.mmap(-1, PLACE.size + _READY.size)
         self._counted = 0.0
+        self._split_text = import_module(".xacro_hooks", __package__).split_text
 
     def run(self) -> None:
-        """Answer messages."""
+        """Handle messages."""
         while True:
             message, data = self._channel.receive()
             if message["do"] == "prepare":
                 self._keep(message, data)
-                self._fork()
+                self._start_fork()
             else:
                 self._channel.send(self.end())
 
@@ -91,14 +92,24 @@ class _Server:
             file = SourceFile(path, data[start : start + length], encoding)
             start += length
             with suppress(Exception):  # the expansion reports it
-                file.tree = parse_xacro(file)
+                file.tree = tree = parse_xacro(file)
+                self._split_values(tree.documentElement)
             self._files[number] = file
         for trusted, text in message["texts"]:
             with suppress(Exception):  # the expansion reports it
                 self._codes[trusted][text] = compile_expression(text, trusted=trusted)
 
-    def _fork(self) -> None:
-        """Fork the process of the next expansion, and send its ends of two pipes."""
+    def _split_values(self, element: XacroElement) -> None:
+        """Find the expressions in the attributes of an element and those below it."""
+        for value in element.attributes.values():
+            if "$" in value:
+                self._split_text(value)
+        for child in element.childNodes:
+            if isinstance(child, XacroElement):
+                self._split_values(child)
+
+    def _start_fork(self) -> None:
+        """Start the process of the next expansion, and send its ends of two pipes."""
         self.end()
         requests, answers = os.pipe(), os.pipe()
         self._mark[:] = bytes(len(self._mark))
@@ -122,8 +133,8 @@ class _Server:
         close_files(keep=descriptors)
         ranges = list_writable_ranges()
         restrict_process()
-        reserve = reserve_heap()
-        populate(ranges)
+        reserve = get_heap()
+        map_pages(ranges)
         _READY.pack_into(self._mark, PLACE.size, time.process_time())
         job, data = channel.receive()
         included = self._find_files(job, memoryview(data)[job["length"] :])

@@ -388,7 +388,7 @@ class Run:
         if "$" not in text:
             return text
         try:
-            pieces = _split(text)
+            pieces = split_text(text)
         except Exception:
             self.failed_text = self.failed_text or text
             raise
@@ -468,7 +468,7 @@ _LEXER = [re.compile(pattern.pattern.removeprefix("^")) for pattern in xacro.LEX
 
 
 @lru_cache(maxsize=1 << 15)
-def _split(text: str) -> list[tuple[int, str]]:
+def split_text(text: str) -> list[tuple[int, str]]:
     """Return the tokens of a text, as xacro's lexer does.
 
     Raises:

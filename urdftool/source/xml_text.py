@@ -13,7 +13,7 @@ from ..control_characters import escape_controls
 from ..errors import XacroError
 from .expansion import ExpandedNode
 from .location import Place
-from .xacro_tree import CDATA, COMMENT, INSTRUCTION
+from .xacro_tree import CDATA, COMMENT, INSTRUCTION, TEXT
 
 _FORBIDDEN = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _NOT_IN_NAME = re.compile(r"[\s<>/=&'\"?!]")
@@ -31,28 +31,41 @@ def check_writable(nodes: Sequence[ExpandedNode]) -> None:
         XacroError: A value has a character that XML does not allow, a comment contains ``--``, or a
             name is not a name of XML or has an undeclared prefix; with the place of the element.
     """
-    known: set[tuple[str, ...]] = set()
-    above = [next(node for node in nodes if isinstance(node[1], str))]
-    prefixes = [_PREFIXES]
-    values = (text for node in nodes if isinstance(node[1], str) for text in node[2].values())
-    is_printable = "".join(values).isprintable()
-    for node in nodes:
-        depth, kind, data = node[:3]
-        if not isinstance(kind, str):
-            _check_text(kind, data, above[min(depth, len(above)) - 1])
-            continue
-        if not is_printable:
+    elements = [node for node in nodes if isinstance(node[1], str)]
+    _check_texts(nodes)
+    if not "".join(value for node in elements for value in node[2].values()).isprintable():
+        for node in elements:
             _check_values(node)
-        del above[depth:], prefixes[depth:]
-        above.append(node)
-        names = kind, *data
+    known: set[tuple[str, ...]] = set()
+    scopes = [(0, _PREFIXES)]
+    for node in elements:
+        while node[0] <= scopes[-1][0]:  # the element that declares them has ended
+            scopes.pop()
+        names = node[1], *node[2]
         if names in known:
-            prefixes.append(prefixes[-1])
             continue
-        prefixes.append(_declare(node, prefixes[-1]))
-        _check_names(names, prefixes[-1], node)
+        prefixes = _declare(node, scopes[-1][1])
+        if prefixes is not scopes[-1][1]:
+            scopes.append((node[0], prefixes))
+        _check_names(names, prefixes, node)
         if not any(":" in name or name == "xmlns" for name in names):
             known.add(names)  # others depend on the elements around
+
+
+def _check_texts(nodes: Sequence[ExpandedNode]) -> None:
+    """Check the nodes that are not elements."""
+    texts = [node for node in nodes if not isinstance(node[1], str)]
+    plain = not _FORBIDDEN.search("".join(node[2] for node in texts))
+    if plain and all(node[1] == TEXT or _is_plain(node[1], node[2]) for node in texts):
+        return
+    above: list[ExpandedNode] = []
+    for node in nodes:
+        del above[node[0] - 1 :]
+        if isinstance(node[1], str):
+            above.append(node)
+        else:
+            root = next(one for one in nodes if isinstance(one[1], str))
+            _check_text(node[1], node[2], above[-1] if above else root)
 
 
 def _check_values(node: ExpandedNode) -> None:
@@ -101,6 +114,11 @@ def _declare(node: ExpandedNode, prefixes: frozenset[str]) -> frozenset[str]:
 
 
 _RESERVED = ("http://www.w3.org/XML/1998/namespace", "http://www.w3.org/2000/xmlns/")
+
+
+def _is_plain(kind: int, data: str) -> bool:
+    """Tell whether nothing in a comment, section or instruction can end it or is lost."""
+    return _ENDS[kind] not in data and "\r" not in data and not data.endswith("-")
 
 
 def _check_text(kind: int, data: str, parent: ExpandedNode) -> None:

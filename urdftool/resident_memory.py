@@ -5,13 +5,13 @@ from __future__ import annotations
 import sys
 from contextlib import suppress
 
-_POPULATE_WRITE = 23  # MADV_POPULATE_WRITE of madvise(2), since Linux 5.14
+_POPULATE_WRITE = 23  # source: MADV_POPULATE_WRITE of madvise(2), since Linux 5.14
 _HEAP = 16 << 20
 """Memory that an expansion gets without a fault [bytes]; chosen, the largest of 123 real ones
 needs 14 MiB."""
 
-_PIECE = 256  # bytes: a size that Python takes of its arenas
-_ARENA = 1 << 20  # bytes: an arena of Python is kept as long as a piece of it is used
+_PIECE = 256  # bytes; chosen: Python takes up to 512 of its arenas
+_ARENA = 1 << 20  # bytes; source: an arena of Python 3.10, kept as long as a piece is used
 
 
 def list_writable_ranges() -> list[tuple[int, int]]:
@@ -26,8 +26,8 @@ def list_writable_ranges() -> list[tuple[int, int]]:
     return found
 
 
-def populate(ranges: list[tuple[int, int]]) -> None:
-    """Make each page of memory one of this process, where the system supports it."""
+def map_pages(ranges: list[tuple[int, int]]) -> None:
+    """Map each page of memory for this process alone, where the system supports it."""
     if sys.platform != "linux":
         return
     import ctypes
@@ -38,7 +38,7 @@ def populate(ranges: list[tuple[int, int]]) -> None:
         madvise(start, length, _POPULATE_WRITE)
 
 
-def reserve_heap() -> list[bytes]:
-    """Allocate and free memory; return what keeps it in this process."""
+def get_heap() -> list[bytes]:
+    """Get memory and free it; return what keeps it in this process."""
     pieces = [bytes(_PIECE) for _ in range(_HEAP // _PIECE)]
     return pieces[:: _ARENA // _PIECE]
