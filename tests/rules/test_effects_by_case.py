@@ -349,3 +349,56 @@ def test_links_of_mass_zero_are_lumped_by_the_names_of_joints(tmp_path, joint, k
     path.write_text(_robot(NOTHING, kind="fixed", first=more))
     findings = check_file(path, Options(Settings(select=("zero-mass",)))).findings
     assert {key for finding in findings for key in finding.effects} == keys
+
+
+JOINT = '{}<mimic joint="{}"/>'
+EMPTY, NO_FILE = "<geometry/>", "<geometry><mesh/></geometry>"
+FLAT = '<geometry><mesh filename="b.stl" scale="0 1 1"/></geometry>'
+TWO = BOX.replace("</geometry>", '<sphere radius="0.1"/></geometry>')
+
+
+@pytest.mark.parametrize(
+    ("rule", "robot", "reader", "effect"),
+    [
+        ("mimic-cycle", _robot(HEAVY, limit=JOINT.format(LIMIT, "swing")), "mujoco", "4.0 rejects"),
+        ("mimic-unknown-joint", _robot(HEAVY, limit=JOINT.format(LIMIT, "x")), "mujoco", "drops"),
+        ("mimic-unknown-joint", _robot(HEAVY, limit=f"{LIMIT}<mimic/>"), "mujoco", "4.0 rejects"),
+        ("planar-or-floating", _robot(HEAVY, kind="planar"), "pybullet", "gives it two prismatic"),
+        ("planar-or-floating", _robot(HEAVY, kind="planar"), "mujoco", "loads it"),
+        ("planar-or-floating", _robot(HEAVY, kind="floating"), "pybullet", "treats it as fixed"),
+        ("planar-or-floating", _robot(HEAVY, kind="floating"), "mujoco", "rejects the file"),
+        ("unknown-joint-type", _robot(HEAVY, kind="hinge"), "mujoco, pybullet, drake", "reject it"),
+        ("unknown-joint-type", _robot(HEAVY, kind="spherical"), "mujoco, pybullet", "load it"),
+        ("empty-geometry", _robot(f"{HEAVY}<visual>{EMPTY}</visual>"), "mujoco", ""),
+        ("empty-geometry", _robot(f"{HEAVY}<collision>{EMPTY}</collision>"), "mujoco", "rejects"),
+        ("bad-scale", _robot(f"{HEAVY}<visual>{FLAT}</visual>"), "mujoco", ""),
+        ("bad-scale", _robot(f"{HEAVY}<collision>{FLAT}</collision>"), "mujoco", "rejects it"),
+        ("several-shapes-in-geometry", _robot(f"<visual>{TWO}</visual>"), "mujoco", ""),
+        ("several-shapes-in-geometry", _robot(f"<collision>{TWO}</collision>"), "mujoco", "takes"),
+        ("missing-name", _robot().replace('"swing"', '""'), "pinocchio", "accepts it"),
+        ("missing-name", _robot().replace('name="swing"', ""), "mujoco", "rejects the file"),
+    ],
+)
+def test_a_statement_about_a_reader_holds_for_this_element(tmp_path, rule, robot, reader, effect):
+    given = effects_of(tmp_path, rule, robot).get(reader, "")
+    assert given.startswith(effect) if effect else not given
+
+
+@pytest.mark.parametrize("rule", ["empty-geometry", "mesh-without-filename"])
+@pytest.mark.parametrize(("part", "lost"), [("visual", "its visuals and"), ("collision", "its")])
+def test_urdfdom_keeps_the_visuals_before_a_broken_collision(tmp_path, rule, part, lost):
+    geometry = EMPTY if rule == "empty-geometry" else NO_FILE
+    given = effects_of(tmp_path, rule, _robot(f"{HEAVY}<{part}>{geometry}</{part}>"))
+    text = given.get("pinocchio") or given["urdfdom, gz, gazebo-classic, pinocchio"]
+    assert text.partition(" ")[2].startswith(f"the link without {lost} collisions")
+
+
+@pytest.mark.parametrize(
+    ("part", "name", "effect"),
+    [("visual", "b.stl", ""), ("collision", "b.stl", "rejects"), ("collision", "b.obj", "uses")],
+)
+def test_a_file_without_a_mesh_in_mujoco(tmp_path, part, name, effect):
+    (tmp_path / name).write_bytes(b"v 0 0 0\n")
+    robot = _robot(f'{HEAVY}<{part}><geometry><mesh filename="{name}"/></geometry></{part}>')
+    given = effects_of(tmp_path, "corrupt-mesh", robot).get("mujoco", "")
+    assert given.startswith(effect) if effect else not given

@@ -129,6 +129,7 @@ def write_default_axis(problem: Problem, context: FixContext) -> Proposal | None
     effects={
         "pinocchio": "builds a joint with a free axis instead of one along x, y or z",
     },
+    group="robot",
 )
 def axis_nearly_canonical(
     robot: Robot, *, smallest: float = 1e-6, largest: float = 1e-2
@@ -155,6 +156,8 @@ def axis_nearly_canonical(
             f"write {snapped} if that is intended",
             at=joint.axis.locate_attribute("xyz"),
             data={"write": snapped, "angle": middle / high},
+            group="axes of {count} joints are almost, but not exactly, along x, y or z: {names}; "
+            "write them exactly if that is intended",
         )
 
 

@@ -40,7 +40,9 @@ _SYNONYMS = {
     ERROR,
     effects={
         "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: joint has no known type",
-        "mujoco, pybullet, drake": "reject it, except that MuJoCo and PyBullet load 'spherical'",
+        "mujoco, pybullet, drake (not spherical)": "reject it",
+        "mujoco, pybullet (spherical)": "load it",
+        "drake (spherical)": "rejects it",
         "newton": "rejects the robot",
     },
     formats=ANY_FORMAT,
@@ -81,6 +83,7 @@ def _report_unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
         message = f"joint '{joint.name}' has the unknown type '{kind}'; {instead}"
     else:
         message = f"joint '{joint.name}' has no type; write type=\"…\""
+    case = "spherical" if kind == "spherical" else "not spherical"
     loads = kind == "spherical" and targets and targets <= {"mujoco", "pybullet"}
     return Problem(
         joint,
@@ -88,6 +91,7 @@ def _report_unknown_type(joint: Joint, targets: frozenset[str]) -> Problem:
         at=joint.locate_attribute("type"),
         severity=INFO if loads else None,
         data={"write": word} if word else None,
+        effects=select_holding(unknown_joint_type.effects, case),
     )
 
 
@@ -103,13 +107,16 @@ def write_joint_type(problem: Problem, context: FixContext) -> Proposal | None:
 
 _PLANAR = {
     "gz, gazebo-classic": "reject the model (sdformat 12.3: Error 25)",
-    "robot_state_publisher": "publishes no transform for floating, a fixed one for planar",
-    "KDL": "treats both as fixed",
-    "pybullet": (
-        "treats floating as fixed; the planar joint has two prismatic axes and a revolute one"
-    ),
-    "mujoco": "loads both; a floating joint must be at the root",
-    "newton": "loads a floating joint; moves a planar joint along two axes, without rotation",
+    "robot_state_publisher (floating)": "publishes no transform for it",
+    "robot_state_publisher (planar)": "publishes a fixed transform for it",
+    "KDL": "treats it as fixed",
+    "pybullet (floating)": "treats it as fixed",
+    "pybullet (planar)": "gives it two prismatic axes and a revolute one",
+    "mujoco (planar)": "loads it",
+    "mujoco (floating, at the root)": "loads it",
+    "mujoco (floating, above the root)": "rejects the file: such a joint must be at the root",
+    "newton (floating)": "loads it",
+    "newton (planar)": "moves it along two axes, without rotation",
     "drake (one damping)": "rejects the file: it requires three damping values for a planar joint",
 }
 
@@ -134,8 +141,15 @@ def planar_or_floating(robot: Robot) -> Iterator[Problem]:
                 "robot_state_publisher does not move it; use revolute and prismatic joints, or "
                 "leave the root free",
                 at=joint.locate_attribute("type"),
-                effects=select_holding(_PLANAR, *["one damping"] * _has_one_damping(joint)),
+                effects=select_holding(_PLANAR, *_list_conditions(robot, joint)),
             )
+
+
+def _list_conditions(robot: Robot, joint: Joint) -> list[str]:
+    """List what effects depend on: the type, its parent, and whether damping is one value."""
+    is_low = robot.tree.get_parent_joint(joint.parent) is None
+    place = "at the root" if is_low else "above the root"
+    return [joint.type, place, *["one damping"] * _has_one_damping(joint)]
 
 
 def _has_one_damping(joint: Joint) -> bool:

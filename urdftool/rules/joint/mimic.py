@@ -7,7 +7,17 @@ from collections.abc import Iterator
 from ...model.elements import Joint, Mimic, Robot
 from ...source.document import Element
 from ..fix import FixContext, Proposal, format_numbers, get_suggestion, set_attribute, unsafe
-from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
+from ..rule import (
+    ANY_FORMAT,
+    ERROR,
+    INFO,
+    UNSAFE,
+    URDF_AND_SDF,
+    WARNING,
+    Problem,
+    rule,
+    select_holding,
+)
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest, suggest_name
 from ..xml.vocabulary_table import find_misspelled_attributes
@@ -18,14 +28,11 @@ APPLIES_TO = ("mimic",)
 @rule(
     ERROR,
     effects={
-        "urdfdom, gz, gazebo-classic, pinocchio": (
-            "accept it; reject the robot where the attribute is missing"
-        ),
+        "urdfdom, gz, gazebo-classic, pinocchio (a name)": "accept it",
+        "urdfdom, gz, gazebo-classic, pinocchio (no name)": "reject the robot",
         "moveit": "logs 'cannot mimic unknown joint', and moves the joint on its own",
-        "mujoco": (
-            "drops the constraint, 4.0 with a warning; 4.0 rejects the file where the "
-            "attribute is missing"
-        ),
+        "mujoco (a name)": "drops the constraint, 4.0 with a warning",
+        "mujoco (no name)": "4.0 rejects the file",
         "drake": "rejects the file",
         "ros2_control": "stops with an exception where the joint is in <ros2_control>",
         "pybullet": "does not read <mimic>",
@@ -48,7 +55,7 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
             continue
         if not name.strip():
             if "joint" in mimic.element.attributes or not _is_misspelt(mimic.element):
-                yield Problem(joint, _describe_missing_leader(joint), at=mimic, alike="no name")
+                yield _report_missing_leader(joint, mimic)
         elif name.strip() not in stripped:
             yield _report_unknown_leader(robot, joint, mimic)
 
@@ -65,6 +72,14 @@ def report_unknown_leaders(robot: Robot) -> Iterator[Problem]:
                 yield Problem(joint, _describe_missing_leader(joint), at=place)
 
 
+def _report_missing_leader(joint: Joint, mimic: Mimic) -> Problem:
+    written = "joint" in mimic.element.attributes
+    effects = select_holding(mimic_unknown_joint.effects, "no name" if not written else "a name")
+    return Problem(
+        joint, _describe_missing_leader(joint), at=mimic, alike="no name", effects=effects
+    )
+
+
 def _describe_missing_leader(joint: Joint) -> str:
     return f"<mimic> of joint '{joint.name}' has no joint name; write joint=\"…\""
 
@@ -77,6 +92,7 @@ def _report_unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
         at=mimic.locate_attribute("joint"),
         alike=bool(near),
         data={"suggestion": find_nearest(mimic.joint, robot.joint)},
+        effects=select_holding(mimic_unknown_joint.effects, "a name"),
     )
 
 
@@ -101,8 +117,10 @@ def write_suggested_joint(problem: Problem, context: FixContext) -> Proposal | N
     ERROR,
     effects={
         "moveit": "ignores every mimic joint of the robot",
-        "mujoco": "3.3 ignores it; 4.0 couples the two joints twice",
-        "drake": "couples the two joints twice; rejects a joint that mimics itself",
+        "mujoco (several joints)": "3.3 ignores it; 4.0 couples the joints, once for each <mimic>",
+        "mujoco (one joint)": "4.0 rejects the file",
+        "drake (several joints)": "couples the joints, once for each <mimic>",
+        "drake (one joint)": "rejects it",
         "newton": "rejects the robot",
     },
     formats=ANY_FORMAT,
@@ -171,7 +189,9 @@ def _report_cycle(joint: Joint, circle: list[str]) -> Problem:
         names = " follows ".join((*some, f"'{circle[0]}'"))
         message = f"mimic joints follow each other: {names}; remove one <mimic>"
     place = joint.mimic.locate_attribute("joint")
-    return Problem(joint, message, at=place, data={"joints": circle})
+    case = "one joint" if len(circle) == 1 else "several joints"
+    effects = select_holding(mimic_cycle.effects, case)
+    return Problem(joint, message, at=place, data={"joints": circle}, effects=effects)
 
 
 @rule(

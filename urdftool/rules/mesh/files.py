@@ -12,6 +12,7 @@ from typing import BinaryIO
 
 from ...geometry.stl_header import LFS_MARK, read_stl_header
 from ...model.elements import Robot
+from ...model.mesh_formats import get_suffix
 from ...source.description import Description
 from ...source.packages import find_own_package, shorten_path
 from ...workspace import Workspace, memoize_by_workspace
@@ -191,7 +192,7 @@ def _walk_files(workspace: Workspace, folder: str) -> Iterator[tuple[str, str]]:
             "reject the robot on Linux, whose file names are case-sensitive; by default those of "
             "macOS and Windows are not"
         ),
-        "mujoco": "rejects the robot for a collision on Linux",
+        "mujoco": "rejects the robot on Linux",
     },
     formats=URDF_AND_SDF,
 )
@@ -202,7 +203,8 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
     robots and build servers use. There the file is not found.
     """
     seen: set[str] = set()
-    for use in get_mesh_uses(robot, description):
+    uses = get_mesh_uses(robot, description)
+    for use in uses:
         if use.path is None or use.exists or use.uri in seen:
             continue
         actual = find_actual_case(use.workspace, use.path)
@@ -216,6 +218,7 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
                 f"mesh '{use.uri}' is '{shown}' on disk, so Linux does not find it; match the case",
                 at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri, "name": shown},
+                effects=["pybullet, drake", *["mujoco"] * _is_opened_by_mujoco(robot, use, uses)],
             )
 
 
@@ -254,10 +257,8 @@ def _split_difference(old: str, new: str) -> tuple[str, str]:
     ERROR,
     effects={
         "rviz": "shows nothing for this shape",
-        "mujoco": (
-            "rejects the robot: 'perhaps this is an ASCII file?'; for an OBJ without faces it uses "
-            "the convex hull of the points"
-        ),
+        "mujoco (not OBJ)": "rejects the robot",
+        "mujoco (OBJ)": "uses the convex hull of its points, if it has points",
         "pybullet": "loads the link without the shape, with a warning",
         "pinocchio": "rejects the geometry of the robot",
         "drake": "rejects the robot",
@@ -285,7 +286,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
                 f"mesh '{use.uri}' {wrong}",
                 at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri},
-                effects=_select_readers(robot, use, uses),
+                effects=_select_readers(robot, use, uses, _name_format(use)),
             )
 
 
@@ -326,18 +327,34 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
             )
 
 
-def _select_readers(robot: Robot, use: MeshUse, uses: list[MeshUse]) -> list[str]:
+def _name_format(use: MeshUse) -> str:
+    """Name the format of a file as the effect on MuJoCo depends on it."""
+    return " (OBJ)" if get_suffix(use.uri) == "obj" else " (not OBJ)"
+
+
+def _select_readers(robot: Robot, use: MeshUse, uses: list[MeshUse], case: str = "") -> list[str]:
     """Select the readers that open a file: for a visual, not those that ignore visuals.
 
     PyBullet draws a visual without the shape; MuJoCo discards visuals unless the robot keeps them.
+
+    Args:
+        robot: The robot.
+        use: The use of the file.
+        uses: All uses of meshes.
+        case: Case of the effect on MuJoCo, in parentheses; empty without cases.
     """
     collides = any(other.collides for other in uses if other.path == use.path)
-    opened = collides or keeps_visuals(robot)
     return [
         *("rviz", "pinocchio"),
-        *["mujoco"] * opened,
+        *[f"mujoco{case}"] * _is_opened_by_mujoco(robot, use, uses),
         *["pybullet", "drake"] * collides,
     ]
+
+
+def _is_opened_by_mujoco(robot: Robot, use: MeshUse, uses: list[MeshUse]) -> bool:
+    """Tell whether MuJoCo opens a file: for a visual only if the robot keeps visuals."""
+    collides = any(other.collides for other in uses if other.path == use.path)
+    return collides or keeps_visuals(robot)
 
 
 def describe_defect(use: MeshUse) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ...diagnostic import FileRewrite
 from ...geometry.stl_header import HEADER_BYTES, TRIANGLE_BYTES, read_stl_header
-from ...model.elements import Mesh, Robot
+from ...model.elements import Collision, Mesh, Robot
 from ...model.read import parse_numbers
 from ...source.description import Description
 from ...workspace import Workspace, memoize_by_workspace
@@ -22,6 +22,7 @@ from ..fix import (
     substitute,
     unsafe,
 )
+from ..mujoco import keeps_visuals
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from .changes import find_uses, write_new_file
 from .link_extents import compute_mesh_box
@@ -369,7 +370,7 @@ def mesh_scale_outlier(
     ERROR,
     effects={
         "drake": "rejects it",
-        "mujoco": "rejects it for a collision",
+        "mujoco": "rejects it",
         "urdfdom, gz, gazebo-classic, pybullet": "accept it: the shape is flat",
     },
     formats=URDF_AND_SDF,
@@ -394,6 +395,10 @@ def bad_scale(robot: Robot) -> Iterator[Problem]:
                 "flat; write nonzero factors",
                 at=mesh.locate_attribute("scale"),
                 data={"scale": list(values)},
+                effects=[
+                    *("drake", "urdfdom, gz, gazebo-classic, pybullet"),
+                    *["mujoco"] * (isinstance(shape, Collision) or keeps_visuals(robot)),
+                ],
             )
 
 

@@ -120,9 +120,11 @@ _URDFDOM = "urdfdom, gz, gazebo-classic, pinocchio"
 @rule(
     ERROR,
     effects={
-        _URDFDOM: (
-            "load the link without its visuals and collisions, or without its collisions if the "
-            "<mesh> is in a collision, with an error in the log"
+        f"{_URDFDOM} (a visual)": (
+            "load the link without its visuals and collisions, with an error in the log"
+        ),
+        f"{_URDFDOM} (a collision)": (
+            "load the link without its collisions, with an error in the log"
         ),
         "pybullet, drake": "reject the robot",
         "mujoco": "rejects the file",
@@ -147,7 +149,7 @@ def mesh_without_filename(robot: Robot) -> Iterator[Problem]:
             f"or remove the <{shape.element.tag}>",
             at=element,
             effects=[
-                *(_URDFDOM, "pybullet, drake"),
+                *(f"{_URDFDOM} (a {shape.element.tag})", "pybullet, drake"),
                 *["mujoco"] * (keeps or isinstance(shape, Collision)),
             ],
         )

@@ -239,7 +239,8 @@ def _format_cycle(cycle: list[Link]) -> str:
             "reject the model, which then has the link twice; a link that is fixed to both is "
             "lumped (sdformat 12.3)"
         ),
-        "mujoco, pinocchio, drake, newton": "reject the robot",
+        "mujoco, drake, newton": "reject the robot",
+        "pinocchio": "loads the link once for each joint, or rejects the robot",
         "pybullet": "crashes",
     },
     formats=ANY_FORMAT,

@@ -142,9 +142,14 @@ def describe_root(root: Element) -> str:
 
 _NAME_EFFECTS = {
     "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a robot)": "reject it",
-    "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a link or joint)": "reject the robot",
+    "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a link)": "reject the robot",
+    "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a joint, no attribute)": (
+        "reject the robot"
+    ),
     "mujoco (a robot)": "accepts it",
-    "mujoco (a joint)": "rejects the file",
+    "mujoco (a joint, no attribute)": "rejects the file",
+    "pinocchio (a joint, empty)": "accepts it",
+    "pybullet (a joint, empty)": "crashes",
 }
 
 
@@ -168,7 +173,7 @@ def missing_name(description: Description) -> Iterator[Problem]:
         if element.tag in ("robot", *named) and not (element.get("name") or "").strip():
             at = element.locate_attribute("name") if "name" in element.attributes else None
             severity = WARNING if element.tag == "transmission" else ERROR
-            case = (f"a {element.tag}", *["a link or joint"] * (element.tag in ("link", "joint")))
+            case = (f"a {element.tag}", "no attribute" if at is None else "empty")
             yield Problem(
                 element,
                 _describe_missing_name(element),

@@ -105,11 +105,14 @@ def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
         if len(shapes) > 1 and geometry.children[0] is shapes[0]:
             first, second = shapes[:2]
             around = geometry.parent.tag if geometry.parent is not None else "visual"
+            drawn = around == "visual" and not keeps_visuals(robot)
+            read = set(several_shapes_in_geometry.effects) - ({"mujoco"} if drawn else set())
             yield Problem(
                 second,
                 f"{around} of {describe_owner(second)} has a <{second.tag}> next to its "
                 f"<{first.tag}>, but readers take only one; "
                 f"write a separate <{around}> for each",
+                effects=[key for key in several_shapes_in_geometry.effects if key in read],
             )
 
 
@@ -145,7 +148,12 @@ _DROPPING = "urdfdom, gz, gazebo-classic, pinocchio"
 @rule(
     ERROR,
     effects={
-        _DROPPING: ("load the link without its visuals and collisions, with an error in the log"),
+        f"{_DROPPING} (a visual)": (
+            "load the link without its visuals and collisions, with an error in the log"
+        ),
+        "pinocchio (a collision)": (
+            "loads the link without its collisions, with an error in the log"
+        ),
         "check_urdf": "reports success anyway",
         "pybullet, drake": "reject the file",
         "mujoco": "rejects the file",
@@ -167,7 +175,8 @@ def empty_geometry(robot: Robot) -> Iterator[Problem]:
             continue
         at = element if element is not None else shape
         read = ["mujoco"] if keeps or isinstance(shape, Collision) else []
-        effects = [_DROPPING, "check_urdf", "pybullet, drake", *read]
+        urdfdom = _DROPPING if isinstance(shape, Visual) else "pinocchio"
+        effects = [f"{urdfdom} (a {shape.element.tag})", "check_urdf", "pybullet, drake", *read]
         yield Problem(link, _describe_missing_shape(link, shape), at=at, effects=effects)
 
 
