@@ -176,7 +176,8 @@ def try_pair(sample: Sample, kinds: tuple[str, str], seed: int, known: Known) ->
         if appeared:
             hidden = "findings that the other damage hid" if is_hidden else ""
             yield hidden or "findings that were not there"
-            yield f"    {sample.name} {kinds} {seed}: {appeared[:3]} by {dict(done.applied)}"
+            what = f"{'hidden' if is_hidden else 'new'} {appeared[:3]} by {dict(done.applied)}"
+            yield f"    {sample.name} {kinds} {seed}: {what}"
 
 
 def main(count: int = 500, seed: int = 0) -> None:

@@ -86,10 +86,14 @@ def _find_new_doubt(before: Report, after: Report, chosen: Sequence[Finding]) ->
     """Return a finding about an inertia that a fix of another inertia would cause.
 
     The number that the fix writes is then in doubt itself, even if the new finding is an info. A
-    link that had no inertia is different: what is wrong with it could not be seen before.
+    link that had no inertia is different: what is wrong with it could not be seen before, except
+    that it is not the inertia of its mirror image.
     """
     family = {name for file in _ABOUT_VALUES for name in RULES["inertia"][file]}
-    if not any(finding.code in family for finding in chosen):
+    codes = {finding.code for finding in chosen}
+    if "missing-inertial" in codes and not codes & family:
+        family = set(RULES["inertia"]["sides"])
+    elif not codes & family:
         return None
     there = {(finding.code, get_subject(finding)) for finding in before.findings}
     new = [

@@ -122,19 +122,26 @@ def fix_parent(problem: Problem, context: FixContext) -> Proposal | None:
     """Declare ``world``; for another name write the suggested link.
 
     ``world`` is declared only in a description that is a complete robot for all arguments. A part
-    that another robot includes gets ``world`` from there.
+    that another robot includes gets ``world`` from there. If two links have one name, one of them
+    may be the missing link, so that no other is written.
     """
     joint = context.get_joint(problem)
     if "included_by" in problem.data:
         return None
     if joint.parent != "world":
-        return write_suggestion(problem)
+        return None if _has_repeated_link(context) else write_suggestion(problem)
     check_not_included(context)
     made = prepend_child(context.robot.element, '<link name="world"/>')
     parent = joint.parent_element
     sure = parent is not None and is_always_there(parent) and not is_computed(parent, "link")
     known = any(_WORLD.search(file.data) for file in context.description.files)
     return (safe if sure and not known else unsafe)('add <link name="world"/>', made)
+
+
+def _has_repeated_link(context: FixContext) -> bool:
+    """Tell whether two links have one name."""
+    links = context.robot.links
+    return len({link.name for link in links}) < len(links)
 
 
 _WORLD = re.compile(rb"<link\b[^<>]*\bname\s*=\s*[\"']world[\"']")
@@ -210,9 +217,11 @@ def _describe_remedy(name: str, robot: Robot, possible: Iterable[str]) -> str:
 
 @unknown_child_link.fix(UNSAFE, reveals=True)
 def fix_child(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested link, if it does not have a parent joint yet."""
+    """Write the suggested link, if it has no parent joint yet, and no two links have one name."""
     orphan: str = problem.data.get("orphan", "")
     found = find_attribute(problem)
+    if _has_repeated_link(context):
+        return None
     if orphan and found is not None:
         return unsafe(f"write '{orphan}'", set_attribute(*found, orphan))
     name = get_suggestion(problem, context.get_joint(problem).child)
