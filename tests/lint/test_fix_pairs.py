@@ -87,3 +87,41 @@ def test_no_fix_of_a_pair_writes_a_number_that_no_message_has(first, tmp_path):
                  for f in report.findings]  # fmt: skip
         known = _numbers(text) | _numbers(" ".join(shown)) | {"0", "1"}
         assert _numbers(after) <= known, (first, second, dict(fixed.applied))
+
+
+BOX = '<collision><geometry><box size="0.1 0.1 0.3"/></geometry></collision>'
+SOLID = (
+    '<inertial><mass value="{0}"/><inertia ixx="{1}" ixy="0" ixz="0" iyy="{1}" iyz="0" izz="{2}"/>'
+    f"</inertial>{BOX}"
+)
+BOUND = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+
+
+def _arm(name, side, body, parent="base"):
+    return (
+        f'<link name="{name}">{body}</link><joint name="{name}_joint" type="revolute"><parent '
+        f'link="{parent}"/><child link="{name}"/><origin xyz="0 {side} 0"/>{BOUND}</joint>'
+    )
+
+
+def _fix(tmp_path, *parts):
+    path = tmp_path / "r.urdf"
+    base = f'<link name="base">{SOLID.format(1, 0.01, 0.002)}</link>'
+    path.write_text(f'<robot name="r">{base}{"".join(parts)}</robot>', "utf-8")
+    options = Options(fixes=True)
+    return fix_description(check_file(path, options), options, unsafe=True)
+
+
+@pytest.mark.parametrize(("other", "count"), [("right", 0), ("other", 1)])
+def test_no_parent_is_suggested_while_two_links_have_one_name(tmp_path, other, count):
+    body = SOLID.format(1, 0.01, 0.002)
+    parts = [_arm("right", -0.5, body), _arm(other, 0.5, body).replace(f"{other}_joint", "x")]
+    done = _fix(tmp_path, *parts, _arm("hand", 0.5, body, "rihgt"))
+    assert done.applied["unknown-parent-link"] == count
+
+
+@pytest.mark.parametrize(("mass", "count"), [(9, 0), (3, 1)])
+def test_an_inertia_that_its_mirror_image_contradicts_is_not_written(tmp_path, mass, count):
+    body = SOLID.format(mass, mass * 0.0083, mass * 0.00167)
+    done = _fix(tmp_path, _arm("left_arm", 0.5, body), _arm("right_arm", -0.5, BOX))
+    assert done.applied["missing-inertial"] == count
