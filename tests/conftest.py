@@ -195,11 +195,3 @@ XACRO = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n{}\n</rob
 def xacro_file(write):
     """Write a xacro file with something in its robot; gives its path."""
     return lambda name, inside: write(name, XACRO.format(inside))
-
-
-@pytest.fixture
-def stand_ins(tmp_path):
-    """A folder with the files that examples name."""
-    from tests import stand_ins
-
-    return stand_ins.make(tmp_path)

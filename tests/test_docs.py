@@ -1,5 +1,6 @@
 import ast
 import re
+import shutil
 from importlib.util import find_spec
 
 import generate
@@ -7,6 +8,7 @@ import pytest
 from generator import rule_pages
 from generator.console import BLOCK, insert_output, is_same, list_pages, read_mode
 
+from tests import stand_ins
 from tests.conftest import ROOT
 from urdftool.rules import get_rule
 from urdftool.rules.old_names import RENAMED_RULES
@@ -122,9 +124,16 @@ def python_blocks():
     return found
 
 
+@pytest.fixture(scope="module")
+def examples(tmp_path_factory):
+    """A folder with the files that examples name; each example has a copy of it."""
+    return stand_ins.make(tmp_path_factory.mktemp("stand_ins"))
+
+
 @pytest.mark.parametrize("code", python_blocks())
-def test_python_of_the_pages_runs(code, stand_ins, monkeypatch, capsys):
-    monkeypatch.chdir(stand_ins)
+def test_python_of_the_pages_runs(code, examples, tmp_path, monkeypatch, capsys):
+    shutil.copytree(examples, tmp_path / "here", symlinks=True)
+    monkeypatch.chdir(tmp_path / "here")
     exec(code, {})
     assert capsys.readouterr().out.strip()
 

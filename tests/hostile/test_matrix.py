@@ -10,7 +10,7 @@ from tests.hostile.place import SECRETS
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="measures processes in /proc")
 
-PARTS = 8
+PARTS = 4
 
 
 def check(runs, place, start):
@@ -24,7 +24,7 @@ def check(runs, place, start):
 def list_sample():
     """Runs of every category, of which none takes more than a second or two."""
     runs = [run for run in list_runs() if run.case.name not in SLOW_CASES]
-    return runs[3::21]
+    return runs[3::37]
 
 
 SLOW_CASES = frozenset(
@@ -39,7 +39,7 @@ SLOW_CASES = frozenset(
 
 def test_there_are_many():
     assert len(list_runs()) >= 600
-    assert 60 <= len(list_sample()) <= 100
+    assert 30 <= len(list_sample()) <= 60
     assert len({run.case.category for run in list_sample()}) >= 15
 
 
