@@ -40,7 +40,7 @@ def list_cases():
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")
-@pytest.mark.parametrize(("command", "value"), list_cases())
+@pytest.mark.parametrize(("command", "value"), list(list_cases()))
 def test_no_number_breaks_a_command(command, value, urdftool, write):
     write("right.urdf", ROBOT.format(*RIGHT))
     for place in range(len(RIGHT)):

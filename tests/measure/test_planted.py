@@ -27,7 +27,7 @@ def test_nothing_is_found_where_nothing_is_changed(form):
     assert [(check.name, check.differing) for check in differing(form, None)] == []
 
 
-@pytest.mark.parametrize(("form", "planted"), list_changes())
+@pytest.mark.parametrize(("form", "planted"), list(list_changes()))
 def test_a_change_is_found_in_its_row(form, planted):
     assert planted.row in [check.name for check in differing(form, planted)]
 
