@@ -183,7 +183,7 @@ def edit(root, how, what, number, old):
 
 @given(EDITS, st.booleans())
 @settings(
-    max_examples=int(os.environ.get("CACHE_EXAMPLES", "12")),
+    max_examples=int(os.environ.get("CACHE_EXAMPLES", "6")),
     deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
@@ -396,7 +396,7 @@ def test_an_entry_with_any_wrong_value_is_no_crash(lint, write, style):
     assert whole["report"]["findings"]
     places = list(list_paths(whole))
     dice = random.Random(style)
-    for _ in range(int(os.environ.get("CACHE_FORGERIES", "60"))):
+    for _ in range(int(os.environ.get("CACHE_FORGERIES", "30"))):
         forged = replace_value(whole, dice.choice(places), dice.choice(OTHERS))
         DiskCache("kept").put(entry.name, json.dumps(forged).encode())
         result = lint(*words)
@@ -412,7 +412,7 @@ ROBOTS = [
 
 
 @pytest.mark.parametrize(
-    "paths", [ROBOTS[::7], pytest.param(ROBOTS, marks=pytest.mark.slow)], ids=["some", "all"]
+    "paths", [ROBOTS[::15], pytest.param(ROBOTS, marks=pytest.mark.slow)], ids=["some", "all"]
 )
 def test_a_report_of_the_cache_equals_the_computed_one(tmp_path, paths):
     """Also its fixes, and all places in a file share the file."""

@@ -46,7 +46,7 @@ def _many_switches():
 @pytest.mark.parametrize("shared", [False, True], ids=["own workspaces", "one workspace"])
 @pytest.mark.parametrize("work", [check, fix])
 def test_threads_do_not_know_of_each_other(work, shared):
-    robots = ROBOTS[::5] if work is check else ROBOTS[::8]
+    robots = ROBOTS[::10] if work is check else ROBOTS[::16]
     alone = [work(path, Workspace()) for path in robots]
     together = Workspace()
     barrier = Barrier(4)

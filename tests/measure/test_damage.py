@@ -31,9 +31,9 @@ def test_there_are_kinds_enough():
 
 @needs_robots
 def test_most_damages_to_few_robots_are_named():
-    rows = table(FEW)
+    rows = table(FEW, kinds=list(KINDS)[::3])
     tried, found = (sum(row[i] for row in rows.values()) for i in (0, 1))
-    assert tried >= 25
+    assert tried >= 10
     assert found >= 0.9 * tried, {kind: row[2] for kind, row in rows.items() if row[2]}
 
 

@@ -129,8 +129,13 @@ def test_a_small_inertia_alone_does_no_harm(tmp_path, inertia, step):
     assert _found(tmp_path, robot, "pybullet", "mujoco") == []
 
 
-@pytest.mark.parametrize("damping", [0.001, 0.01, 0.1])
-@pytest.mark.parametrize("step", [0.001, 0.004])
+@pytest.mark.parametrize(
+    ("damping", "step"),
+    [
+        *((0.001, 0.001), (0.001, 0.004), (0.1, 0.004)),
+        *(pytest.param(*one, marks=pytest.mark.slow) for one in ((0.01, 0.001), (0.1, 0.001))),
+    ],
+)
 def test_pybullet_oscillates_from_half_of_damping_times_step(tmp_path, damping, step):
     least = damping * step / 2
     assert _pybullet(tmp_path, _robot(0.98 * least, damping), step)[0] > FASTEST
