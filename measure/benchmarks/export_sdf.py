@@ -28,7 +28,7 @@ from urdftool.formats.sdf.options import Options
 from urdftool.formats.sdf.verify.compare import Pair, compare, read_pair
 from urdftool.formats.sdf.verify.loader import run_loads
 from urdftool.formats.sdf.write import write
-from urdftool.model.elements import Robot
+from urdftool.model.elements import Dynamics, Joint, Limit, Robot
 from urdftool.model.load import load
 from urdftool.refusal import Refused
 
@@ -95,22 +95,22 @@ def _engines(path: Path, pair: Pair, place: Path, row: dict[str, bool | str]) ->
     source = Source(path)
     root = pair.robot.tree.root
     assert root is not None
-    base = "world" if root.name == "world" else pair.link(root.name)
+    base = "world" if root.name == "world" else _rename(pair, "link", root.name)
     try:
         target = Target(place, base)
     except RuntimeError as error:
         row["why"] = str(error)[:100]
         return
     row["Drake"] = True
-    names = [name for name in source.names if pair.joint(name) in target.joints]
+    names = [name for name in source.names if _rename(pair, "joint", name) in target.joints]
     links = [link.name for link in pair.robot.links]
     worst: Counter[str] = Counter()
     for q in source.configurations(CONFIGURATIONS):
         one = source.state(q, names)
         two = target.state(
-            {pair.joint(name): value for name, value in q.items()},
-            [pair.joint(name) for name in names],
-            [pair.link(name) for name in links],
+            {_rename(pair, "joint", name): value for name, value in q.items()},
+            [_rename(pair, "joint", name) for name in names],
+            [_rename(pair, "link", name) for name in links],
         )
         _compare(pair, one, two, links, worst)
     row["frames ≤ 1e-9"] = worst["frames"] <= 1e-9
@@ -119,10 +119,16 @@ def _engines(path: Path, pair: Pair, place: Path, row: dict[str, bool | str]) ->
     row["mass, center, inertia"] = (
         worst["mass"] <= 1e-12 and worst["centre"] <= 1e-9 and worst["inertia"] <= 1e-8
     )
-    made = {joint.name: joint for joint in pair.made.joints}
+    made = {joint.name: joint for joint in pair.result.joints}
     row["limits"] = len(names) == len(source.names) and all(
-        _same_limits(source.limits(name), made[pair.joint(name)].limits) for name in names
+        _same_limits(source.limits(name), made[_rename(pair, "joint", name)].limit)
+        for name in names
     )
+
+
+def _rename(pair: Pair, kind: str, name: str) -> str:
+    """Return the name of a link or joint in the exported file."""
+    return pair.claims.renamed.get((kind, name), name)
 
 
 def _compare(pair: Pair, one: State, two: State, links: list[str], worst: Counter[str]) -> None:
@@ -132,7 +138,7 @@ def _compare(pair: Pair, one: State, two: State, links: list[str], worst: Counte
     for name in links:
         if name == "world" and name not in two.frames:
             continue
-        there = two.frames.get(pair.link(name))
+        there = two.frames.get(_rename(pair, "link", name))
         off = np.inf if there is None else np.abs(one.frames[name] - there).max()
         see("frames", float(off))
     if len(one.weight):
@@ -146,6 +152,18 @@ def _compare(pair: Pair, one: State, two: State, links: list[str], worst: Counte
     see("centre", float(np.abs(one.center - two.center).max()))
     size = max(float(np.abs(one.inertia).max()), 1e-30)
     see("inertia", float(np.abs(one.inertia - two.inertia).max()) / size)
+
+
+def _get_limits(joint: Joint) -> dict[str, float]:
+    limit, dynamics = joint.limit or Limit(None), joint.dynamics or Dynamics(None)
+    return {
+        "lower": -np.inf if limit.lower is None else limit.lower,
+        "upper": np.inf if limit.upper is None else limit.upper,
+        "effort": np.inf if limit.effort is None else limit.effort,
+        "velocity": np.inf if limit.velocity is None else limit.velocity,
+        "damping": dynamics.damping or 0.0,
+        "friction": dynamics.friction or 0.0,
+    }
 
 
 def _same_limits(one: dict[str, float], two: dict[str, float]) -> bool:

@@ -22,6 +22,7 @@ class Change:
         unit: Unit of both values, for display.
         remark: Size of the change, for display, such as the distance moved.
         place: Location, in the second robot unless it was removed.
+        owner: Link or joint of an element that only the format has; None for other objects.
     """
 
     kind: str
@@ -32,3 +33,4 @@ class Change:
     unit: str = ""
     remark: str = ""
     place: Place | None = None
+    owner: str | None = None

@@ -5,23 +5,26 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ..model.provenance import NOWHERE
 from ..model.settings import JOINT_TAGS, LINK_TAGS
 from .change import Change
 from .difference import EXISTENCE, Comparison, Difference
 from .extensions import BLOCKS, collect_tags, compare_extensions
+from .loops import put_loops_into_bodies
 from .mechanisms import compare_mechanisms, list_parts_by_kind
-from .native import compare_native, list_in_bodies
+from .native import compare_native, list_in_bodies, share_elements
 from .pair import Pair
 from .rows import NATIVE
 
 _BLOCKS = "simulator data"
+_LOOPS = "loops"
 
 _ROW_OF = {
     "joint actuator": "actuators",
     "contact exclusion": "contact pairs",
-    "closed loop": "loops",
+    "closed loop": _LOOPS,
     "configuration": "configurations",
     "light": "sensors",
     **dict.fromkeys(("gazebo", "transmission", "ros2_control"), _BLOCKS),
@@ -41,12 +44,21 @@ _READ_IN_GAZEBO = _READ | {"joint"}
 
 
 def compare_equipment(pair: Pair, comparison: Comparison) -> None:
-    """Compare actuators, contact pairs, configurations and plugins of two files of one format."""
+    """Compare actuators, contact pairs, configurations and plugins of two files of one format.
+
+    Of a URDF and an SDF, loops and what blocks have in addition are compared.
+    """
     rows = [row for row in comparison.tolerances if row in (*_ROW_OF.values(), NATIVE)]
+    a, b = pair.a.robot, pair.b.robot
+    shared = share_elements(a, b)
     if pair.formats[0] != pair.formats[1]:
+        compared = ("actuators", "sensors", *((_LOOPS, NATIVE) if shared else ()))
         for row in rows:
-            if row not in ("actuators", "sensors"):
+            if row not in compared:
                 comparison.skipped[row] = _WHY.get(row, "of two files of one format only")
+        if shared:
+            _compare_loops(pair, comparison)
+            _compare_native(pair, comparison)
         return
     if pair.formats[0] == "urdf":  # its actuators are elements of blocks
         others = [row for row in rows if row not in (_BLOCKS, "sensors")]
@@ -57,10 +69,22 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
     for change in _list_changes(pair):
         if change.kind in _ROW_OF:
             comparison.add(_make_difference(_ROW_OF[change.kind], change))
-    a, b = pair.a.robot, pair.b.robot
-    comparison.record_parts(NATIVE, a.native, b.native)
+    if shared:
+        _compare_native(pair, comparison)
+
+
+def _compare_native(pair: Pair, comparison: Comparison) -> None:
+    comparison.record_parts(NATIVE, pair.a.robot.native, pair.b.robot.native)
     for change in compare_native(*list_in_bodies(pair), _TOLERANCE, _get_names(pair)):
         comparison.add(_make_difference(NATIVE, change))
+
+
+def _compare_loops(pair: Pair, comparison: Comparison) -> None:
+    robots = put_loops_into_bodies(pair)
+    comparison.record_parts(_LOOPS, *(robot.closures for robot in robots))
+    for change in compare_mechanisms(*robots, _TOLERANCE, _get_names(pair)):
+        if change.kind == "closed loop":
+            comparison.add(_make_difference(_LOOPS, replace(change, owner="")))
 
 
 def _get_names(pair: Pair) -> dict[str, str]:
@@ -80,7 +104,7 @@ def _record_parts(pair: Pair, comparison: Comparison) -> None:
 
 
 def _list_changes(pair: Pair) -> Iterator[Change]:
-    a, b = pair.a.robot, pair.b.robot
+    a, b = put_loops_into_bodies(pair)
     renamed = _get_names(pair)
     yield from compare_mechanisms(a, b, _TOLERANCE, renamed)
     for change in compare_extensions(a, b, _TOLERANCE, renamed):
@@ -102,4 +126,7 @@ def _make_difference(row: str, change: Change) -> Difference:
         values = (None, "there")
     what = EXISTENCE if change.what in ("added", "removed") else change.what
     names = (change.name, change.name)
-    return Difference(row, change.kind, names, what, values, change.unit, math.inf, places)
+    owners = () if change.owner is None else (change.owner,)
+    return Difference(
+        row, change.kind, names, what, values, change.unit, math.inf, places, owners=owners
+    )

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import zip_longest
 
 import numpy as np
 
 from ..mechanics.reference import Array
+from ..model.elements import Robot
 from ..model.mechanism import NativeElement
 from ..model.pose import Pose, rotation_from_rpy, rpy_from_rotation
 from .bodies import Bodies
@@ -20,6 +22,9 @@ from .pair import Pair
 from .tolerance import is_same_pose
 
 _Key = tuple[str, str, str]
+
+_MOST = 200
+"""Largest number of elements without a name whose order does not matter. Chosen, for time."""
 
 _CLASSES = frozenset(("class",))
 """Attributes whose effect is in the values of an element."""
@@ -44,8 +49,20 @@ def compare_native(
     """
     one, two = _group(a, renamed), _group(b, {})
     for key in dict.fromkeys((*one, *two)):
-        for old, new in zip_longest(one.get(key, ()), two.get(key, ())):
-            yield from _compare(key, old, new, tolerance, renamed)
+        compare = partial(_list_changes, key, tolerance=tolerance, renamed=renamed)
+        for old, new in _pair_elements(one.get(key, []), two.get(key, []), compare):
+            for change in compare(old, new):
+                yield replace(change, owner=key[0].partition(" ")[2])
+
+
+def share_elements(a: Robot, b: Robot) -> bool:
+    """Tell whether two robots have elements of one format, which can be compared.
+
+    The elements of ``<gazebo>`` blocks of a URDF are those of SDF. Blocks of two URDF are compared
+    as they are written.
+    """
+    one, two = (robot.format for robot in (a, b))
+    return one == two != "urdf" or {one, two} == {"urdf", "sdf"}
 
 
 def list_in_bodies(pair: Pair) -> tuple[list[NativeElement], list[NativeElement]]:
@@ -97,6 +114,33 @@ def _group(
     return found
 
 
+_Compare = Callable[[NativeElement | None, NativeElement | None], list[Change]]
+
+
+def _pair_elements(
+    one: list[NativeElement], two: list[NativeElement], compare: _Compare
+) -> Iterator[tuple[NativeElement | None, NativeElement | None]]:
+    """Yield the elements of both robots that correspond: equal ones, then by their order."""
+    left, right = list(one), list(two)
+    for old in one if 1 < max(len(one), len(two)) <= _MOST else ():
+        equal = next((new for new in right if not compare(old, new)), None)
+        if equal is not None:
+            left = [other for other in left if other is not old]
+            right = [other for other in right if other is not equal]
+    yield from zip_longest(left, right)
+
+
+def _list_changes(
+    key: _Key,
+    old: NativeElement | None,
+    new: NativeElement | None,
+    *,
+    tolerance: float,
+    renamed: Mapping[str, str],
+) -> list[Change]:
+    return list(_compare(key, old, new, tolerance, renamed))
+
+
 def _compare(
     key: _Key,
     old: NativeElement | None,
@@ -115,7 +159,7 @@ def _compare(
             what = "added" if old is None else "removed"
             yield Change(kind, name, what, place=part.place)
         return
-    held = (old.held or frozenset()) | (new.held or frozenset())
+    held = (old.held or frozenset()) & (new.held or frozenset())
     for change in compare_elements(kind, name, old, new, tolerance, renamed):
         if change.what.partition("/")[0].lstrip("@") not in held | _CLASSES:
             yield change

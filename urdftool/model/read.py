@@ -45,6 +45,7 @@ from .elements import (
     Vector,
     Visual,
 )
+from .native import list_block_elements
 from .numbers import number as number
 from .numbers import parse_numbers as parse_numbers
 from .settings import add_settings
@@ -84,6 +85,7 @@ def read_robot(root: Element) -> Robot:
     add_settings(robot)
     add_blocks(robot)
     add_appearance(robot)
+    robot.native = list(list_block_elements(robot))
     return robot
 
 

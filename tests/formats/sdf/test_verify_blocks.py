@@ -139,7 +139,7 @@ def test_a_static_robot_of_two_trees_is_faithful(tmp_path, choices):
         ("light", '"c">0 0 1 ', '"b">0 0 1 ', "other elements"),
         ("whole", "<static>true<", "<static>false<", "base"),
         ("whole", "<pose>1 2 3 ", "<pose>1 2 4 ", "base"),
-        ("loop", "<pose>0 0 1 0 0 0<", "<pose>0 0 2 0 0 0<", "other elements"),
+        ("loop", "<pose>0 0 1 0 0 0<", "<pose>0 0 2 0 0 0<", "loops"),
     ],
 )  # fmt: skip
 def test_a_change_is_found_in_its_row(tmp_path, part, old, new, row):

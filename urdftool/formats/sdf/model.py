@@ -11,7 +11,7 @@ from ...source.document import Element
 from ..common.naming import get_first_free, list_numbered_names
 from .body_sensors import add_body_sensors, is_body_sensor
 from .control import keep_control
-from .copied_elements import copy_raw_element, is_frame
+from .copied_elements import copy_raw_element, is_frame, move_to_owner
 from .extensions import write_settings
 from .frames import add_frames
 from .joints import add_joint
@@ -101,6 +101,9 @@ def _add_closing_joint(node: Node, t: Translation, element: Element) -> None:
             f"<joint> '{name}' of a <gazebo> block is '{new}' in SDF, since the name is taken",
             element,
         )
+    child = (made.findtext("child") or "").strip()
+    if child in t.robot.link:  # whose frame that of the joint is relative to
+        move_to_owner(made, t, t.robot.link[child])
     for end in ("parent", "child"):
         for tag in made.findall(end):
             name = (tag.text or "").strip()

@@ -2,46 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from ...diagnostic import Severity
-from ...model.appearance import APPEARANCE
 from ...model.mechanism import NativeElement
-from ...model.pose import rpy_from_rotation
+from ...model.native import HELD_PATHS, HELD_TAGS, make_loop, make_native, make_rest
 from ...model.provenance import Written
-from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE
+from ...model.settings import OF_LINKS, OF_ROBOT
 from ...source.document import Element
 from .read_links import Context, compute_part_pose
 from .read_scope import Scope
 
-OF_LINK = (
-    "sensor", "light", "projector", "particle_emitter", "battery", "audio_source", "audio_sink",
-    "plugin",
-)  # fmt: skip
-"""Elements of a link that are copied."""
-
-OF_JOINT = ("sensor", "plugin")
-OF_MODEL = ("plugin", "gripper")
-
 _IN_ROWS = frozenset(("sensor", "plugin"))
 """Elements of which the robot has a part with all values."""
 
+_NESTED = ("model", "include")
+"""Elements whose links and joints the robot has."""
+
+_COPIED = (
+    *("sensor", "light", "projector", "particle_emitter", "battery", "audio_source"),
+    *("audio_sink", "plugin"),
+)
+"""Elements of a link that are copied, and reported as a whole for other formats."""
+
 _READ = {
-    "model": ("link", "joint", "frame", "model", "include", "pose", "plugin", "gripper",
+    "model": ("link", "joint", "frame", *_NESTED, "pose", "plugin", "gripper",
               *(row.path for row in OF_ROBOT)),
-    "link": (*OF_LINK, "inertial", "collision", "visual", "pose", *(row.path for row in OF_LINKS)),
-    "joint": (
-        *("parent", "child", "pose", "axis/xyz", "axis/mimic", "axis2", "sensor", "plugin"),
-        *(f"axis/limit/{end}" for end in ("lower", "upper", "effort", "velocity")),
-        *("axis/dynamics/damping", "axis/dynamics/friction", "axis/use_parent_model_frame"),
-        *(row.path for row in OF_JOINTS if row.path),
-    ),
+    "link": (*_COPIED, "inertial", "collision", "visual", "pose", *(row.path for row in OF_LINKS)),
+    "joint": (*HELD_PATHS["joint"], "axis2"),
     "inertial": ("mass", "pose", "inertia", "fluid_added_mass"),
-    "collision": ("geometry", "pose", *(row.path for row in SURFACE)),
-    "visual": (
-        *("geometry", "pose", "material/script", "material/pbr"),
-        *(row.path for row in APPEARANCE),
-    ),
+    "collision": HELD_PATHS["collision"],
+    "visual": (*HELD_PATHS["visual"], "material/pbr"),
 }  # fmt: skip
 """Paths of the elements that the robot holds, or that are copied or reported as a whole."""
 
@@ -65,35 +56,61 @@ def add_native(context: Context, top: Scope) -> None:
 
 def _list_copied(context: Context, scope: Scope, prefix: str) -> Iterator[NativeElement]:
     for item in scope.links.values():
-        for child in item.element.children:
-            if child.tag in OF_LINK:
-                made = _make(f"link {prefix}{item.name}", child)
-                pose = compute_part_pose(context, scope, prefix, item.element, child)
-                made.values["pose"] = (*pose.translation, *rpy_from_rotation(pose.rotation))
-                yield made
+        yield from _list_of_link(context, scope, prefix, item.element)
+    loops = {closure.name for closure in context.robot.closures}
     for item in scope.joints.values():
-        for child in item.element.children:
-            if child.tag in OF_JOINT:
-                yield _make(f"joint {prefix}{item.name}", child)
+        yield from _list_of_joint(prefix + item.name, item.element, loops)
     for child in scope.element.children:
-        if child.tag in OF_MODEL and not prefix:
-            yield _make("model", child)
+        held = child.tag in _NESTED
+        if not prefix and (held or child.tag in ("plugin", "gripper") or _is_unknown(child)):
+            made = make_native("model", child)
+            made.held = _list_all(made) if held else made.held
+            yield _mark(made)
         elif child.tag == "plugin":
             text = "plugins of nested models are not copied"
             context.record_loss("nested-plugin", text, child, Severity.INFO)
 
 
-def _make(section: str, element: Element) -> NativeElement:
-    """Return an element with its children; its pose is that in the robot's link."""
-    children = [_make(section, child) for child in element.children if child.tag != "pose"]
-    written = Written(element.place, element)
-    attributes = dict(element.attributes)
-    made = NativeElement(
-        written, section, element.tag, attributes, element.text.strip(), children=children
-    )
-    if element.tag in _IN_ROWS:
-        made.held = frozenset(("text", *attributes, *(child.tag for child in children)))
+def _is_unknown(element: Element) -> bool:
+    """Tell whether an element of a model is neither a part of it nor a setting."""
+    return element.tag not in HELD_TAGS and element.tag not in _READ["model"]
+
+
+def _list_of_link(
+    context: Context, scope: Scope, prefix: str, link: Element
+) -> Iterator[NativeElement]:
+    section = f"link {prefix}{link.get('name')}"
+    for child in link.children:
+        if child.tag in ("collision", "visual"):
+            rest = make_rest(section, child.tag, (child,), Written(child.place, child))
+            if rest is not None:
+                yield rest
+        elif child.tag in _COPIED or child.tag not in HELD_TAGS:
+            pose = compute_part_pose(context, scope, prefix, link, child)
+            yield _mark(make_native(section, child, pose))
+
+
+def _list_of_joint(name: str, joint: Element, loops: Container[str]) -> Iterator[NativeElement]:
+    if name in loops:
+        yield make_loop(joint)
+    else:
+        rest = make_rest(f"joint {name}", "joint", (joint,), Written(joint.place, joint))
+        if rest is not None:
+            yield rest
+    for child in joint.children:
+        if child.tag in _IN_ROWS:
+            yield _mark(make_native(f"joint {name}", child))
+
+
+def _mark(made: NativeElement) -> NativeElement:
+    """Set what other parts of the robot hold of a sensor or plugin."""
+    if made.tag in _IN_ROWS:
+        made.held = _list_all(made)
     return made
+
+
+def _list_all(made: NativeElement) -> frozenset[str]:
+    return frozenset(("text", *made.attributes, *(child.tag for child in made.children)))
 
 
 def _report_unread(context: Context, element: Element, kind: str) -> None:

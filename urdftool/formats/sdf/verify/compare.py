@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
 from ....compare.check import Check
 from ....compare.proof import Claims, prove
-from ....compare.rows import NATIVE, narrow_tolerances
 from ....compare.rows import ROWS as ROWS_OF_ROBOTS
+from ....compare.rows import narrow_tolerances
 from ....errors import UrdftoolError
 from ....model.elements import Dynamics, Joint, Limit, Robot
 from ....model.load import read_again
-from ....model.mechanism import MountedSensor
+from ....model.mechanism import MountedSensor, NativeElement
 from ....model.sensors import get_kind
 from ....model.world import WORLD, add_gazebo_base, weld_base
 from ...common.actuator_config import JointSettings, read_actuator_config
@@ -24,13 +25,10 @@ from ..read import read
 from ..write import write
 from .declared_losses import (
     EXCUSES,
-    declare_losses,
     list_added_bodies,
     list_dropped_parts,
     name_blocks,
 )
-from .elements import compare_elements
-from .frames import open_model
 from .loader import run_loads
 from .pair import Pair
 from .world import compare_world
@@ -40,15 +38,13 @@ TOLERANCE = 1e-9
 above the rounding errors of poses in other frames.
 """
 
-_NOT_IN_SDF = (
-    *("actuators", "contact pairs", "loops", "configurations", "simulator data", "world"),
-)
-"""Rows of what SDF does not have; joints of loops are among the other elements."""
+_NOT_IN_SDF = ("actuators", "contact pairs", "configurations", "simulator data", "world")
+"""Rows of what SDF does not have."""
 
 ROWS = tuple(
     row for row in narrow_tolerances(ROWS_OF_ROBOTS, TOLERANCE) if row.name not in _NOT_IN_SDF
 )
-"""Rows of the robot; the other elements of blocks have one of their own."""
+"""Rows of the robot."""
 
 COMPARED_AS_ELEMENTS = tuple(
     f"unread-{tag}"
@@ -57,7 +53,7 @@ COMPARED_AS_ELEMENTS = tuple(
         *("gripper", "element", "look"),
     )
 )
-"""Codes of what the reader does not read, and the rows below those of the robot compare."""
+"""Codes of what the reader does not hold as values; the row of other elements compares it."""
 
 MOVABLE = ("revolute", "prismatic", "continuous")
 
@@ -78,7 +74,7 @@ def verify(robot: Robot, written: Written, options: Options, output: str | Path)
         return [Check("file", "can be read back", 0.0, differing=[f"{place}: {error}"])]
     checks = compare(pair)
     if options.world:
-        checks.append(compare_world(pair, place))
+        checks.append(compare_world(pair))
     checks.append(_check_same_again(robot, written, options))
     loaded = run_loads(robot, options, place)
     return checks if loaded is None else [*checks, loaded]
@@ -102,7 +98,7 @@ def read_pair(robot: Robot, written: Written, place: Path, options: Options | No
     ]
     unread = [loss for loss in reading.losses if loss.code not in COMPARED_AS_ELEMENTS]
     claims = Claims(losses, written.renamed, EXCUSES, unread)
-    return Pair(source, reading.robot, claims, declare_losses(losses), options, open_model(place))
+    return Pair(source, reading.robot, claims, options, place, ROWS)
 
 
 def _read_source(robot: Robot, options: Options, written: Written) -> Robot:
@@ -111,7 +107,9 @@ def _read_source(robot: Robot, options: Options, written: Written) -> Robot:
     if options.force:
         source = drop_invalid_parts(source)
     source = add_gazebo_base(source)
-    if not options.classic:
+    if options.classic:
+        source = replace(source, native=[*_drop_reflectance(source)])
+    else:
         sensors = [_cast_on_gpu(sensor) for sensor in source.mounted_sensors]
         source = replace(source, mounted_sensors=sensors)
     if options.base == "fixed" or any(one.code == "lossy-welded-base" for one in written.losses):
@@ -127,6 +125,16 @@ def _read_source(robot: Robot, options: Options, written: Written) -> Robot:
         for joint in source.joints
     ]
     return replace(source, joints=joints)
+
+
+def _drop_reflectance(source: Robot) -> Iterator[NativeElement]:
+    """Yield the elements of a robot without the reflectance of visuals, which only gz reads."""
+    for element in source.native:
+        kept = [child for child in element.children if child.tag != "laser_retro"]
+        if element.tag != "visual" or len(kept) == len(element.children):
+            yield element
+        elif kept:
+            yield replace(element, children=kept)
 
 
 def _cast_on_gpu(sensor: MountedSensor) -> MountedSensor:
@@ -149,11 +157,8 @@ def _set(joint: Joint, settings: JointSettings) -> Joint:
 
 def compare(pair: Pair) -> list[Check]:
     """Run all checks that need no external program."""
-    of_blocks = pair.robot.format != "sdf"
-    rows = [row for row in ROWS if not of_blocks or row.name != NATIVE]
     has_frames = pair.options.is_at_least("1.7")
-    checks = prove(pair.robot, pair.result, pair.claims, rows=rows, has_frames=has_frames)
-    return [*checks, compare_elements(pair)] if of_blocks else checks
+    return prove(pair.robot, pair.result, pair.claims, rows=pair.rows, has_frames=has_frames)
 
 
 def _check_same_again(robot: Robot, written: Written, options: Options) -> Check:

@@ -11,7 +11,6 @@ from ....diagnostic import Severity
 from ....finding import Finding
 from ....model.block_elements import find_references_at, list_model_elements
 from ....model.elements import Robot
-from ...common.losses import DeclaredLosses
 
 MASS = frozenset(("lossy-inertia", "lossy-mass", "lossy-world", "lossy-negative-mass"))
 MOTION = frozenset(("lossy-axis", "lossy-joint-type", "lossy-planar", "lossy-floating"))
@@ -59,7 +58,9 @@ EXCUSES = (
     Excuse(("sensors", "plugins"), frozenset((DROPPED,)), properties=("existence",)),
     Excuse(("sensors",), frozenset(("lossy-frame-id",)), properties=("frame",)),
     Excuse(("sensors",), BLOCKS | {"lossy-sensor", "unknown-sensor-type"}, least=Severity.WARNING),
-    Excuse((NATIVE,), frozenset(("lossy-sdf-element",))),
+    Excuse((NATIVE,), frozenset(("lossy-sdf-element", "lossy-joint-extension"))),
+    Excuse((NATIVE, "loops"), BLOCKS, "body", least=Severity.WARNING),
+    Excuse((NATIVE,), SHAPES, "body"),
     Excuse(_PARTS, BLOCKS | {"lossy-link-flag"}, least=Severity.WARNING),
 )
 """Rows and parts that a loss explains."""
@@ -91,8 +92,3 @@ def name_blocks(robot: Robot, losses: Sequence[Finding]) -> Iterator[Finding]:
         if loss.code in BLOCKS and not loss.name:
             names = find_references_at(robot, loss.location)
             yield from (replace(loss, name=name) for name in names)
-
-
-def declare_losses(losses: Sequence[Finding]) -> DeclaredLosses:
-    """Collect the losses that change the behavior."""
-    return DeclaredLosses.from_findings(loss for loss in losses if loss.severity > Severity.INFO)

@@ -8,10 +8,19 @@ from pathlib import Path
 import numpy as np
 
 from ....compare.check import Check
-from .facts import EXACT, compare_facts, get_facts, get_value
+from ....compare.compare import compare_robots
+from ....compare.proof import describe
+from ....compare.rows import GLOBAL_ROWS
+from ....errors import UrdftoolError
+from ....model.elements import Robot
+from ....model.numbers import parse_numbers
+from ..read import read
 from .pair import Pair
 
 GROUND = "ground_plane"
+TOLERANCE = 1e-9
+"""Largest difference of the height [m] that counts as equal; chosen, above rounding errors."""
+
 RENDERING = ("camera", "lidar")
 """Parts of the names of sensor types that the rendering system runs."""
 
@@ -23,15 +32,10 @@ WORDS = {
 """Words in the library names of the systems that run other sensors."""
 
 
-def compare_world(pair: Pair, place: Path) -> Check:
-    """Compare the model in a world, and the world itself.
-
-    Args:
-        pair: The robot and the model.
-        place: Path of the model's file.
-    """
-    check = Check("world", "the same model, gravity, ground, systems of its sensors", EXACT)
-    path = place if pair.options.file else place.parent / "world.sdf"
+def compare_world(pair: Pair) -> Check:
+    """Compare the model in a world, and the world itself."""
+    check = Check("world", "the same model, gravity, ground, systems of its sensors", TOLERANCE)
+    path = pair.place if pair.options.file else pair.place.parent / "world.sdf"
     try:
         world = ET.parse(path).getroot().find("world")
     except (OSError, ET.ParseError) as error:
@@ -44,11 +48,8 @@ def compare_world(pair: Pair, place: Path) -> Check:
     if len(models) != 1:
         check.compare(np.inf, f"{len(models)} models in addition to the ground")
         return check
-    expected = get_facts(pair.where.model)
-    for height in _list_heights(pair):  # above the ground, only in the world
-        expected.setdefault("pose", (0.0, 0.0, height, 0.0, 0.0, 0.0))
-    compare_facts(check, "the model", get_facts(models[0]), expected)
-    gravity = get_value(world.findtext("gravity") or "0 0 -9.8")
+    _compare_model(pair, path, check)
+    gravity = parse_numbers(world.findtext("gravity") or "0 0 -9.8", 3)
     if gravity != (0.0, 0.0, -9.8):
         check.compare(np.inf, f"gravity is {world.findtext('gravity')}")
     if world.find("physics") is not None:
@@ -59,18 +60,36 @@ def compare_world(pair: Pair, place: Path) -> Check:
     if f"model://{GROUND}" not in included and not flat:
         check.compare(np.inf, "there is no ground")
     if not pair.options.classic:
-        _compare_systems(pair, world, check)
+        _compare_systems(models[0], world, check)
     return check
 
 
-def _list_heights(pair: Pair) -> list[float]:
-    """Return the height [m] at which the export declares that the model starts, if it does."""
-    return [float(loss.data["height"]) for loss in pair.claims.losses if loss.code == "lossy-start"]
+def _compare_model(pair: Pair, path: Path, check: Check) -> None:
+    """Compare the robot of the world with that of the model's file, and its height."""
+    try:
+        placed = read(path, name=pair.result.name).robot
+        rows = [row for row in pair.rows if row.name not in GLOBAL_ROWS]
+        comparison = compare_robots(pair.result, placed, rows=rows)
+    except UrdftoolError as error:
+        check.differing.append(f"{path.name}: {error.message}")
+        return
+    check.differing += [describe(difference) for difference in comparison.differences]
+    height = _get_height(placed) - _get_height(pair.result)
+    declared = [loss.data["height"] for loss in pair.claims.losses if loss.code == "lossy-start"]
+    if not path.samefile(pair.place):
+        expected = float(declared[0]) if declared else 0.0
+        check.compare(abs(height - expected), f"the model starts {height:.6g} m higher")
 
 
-def _compare_systems(pair: Pair, world: ET.Element, check: Check) -> None:
+def _get_height(robot: Robot) -> float:
+    """Return the height of the root above the ground [m]."""
+    origin = None if robot.base is None else robot.base.origin
+    return 0.0 if origin is None else origin.xyz[2]
+
+
+def _compare_systems(model: ET.Element, world: ET.Element, check: Check) -> None:
     libraries = [plugin.get("filename") or "" for plugin in world.findall("plugin")]
-    kinds = {sensor.get("type") or "" for sensor in pair.where.model.iter("sensor")}
+    kinds = {sensor.get("type") or "" for sensor in model.iter("sensor")}
     systems = {"physics", *(WORDS[kind] for kind in kinds & WORDS.keys())}
     if any(part in kind for kind in kinds - WORDS.keys() for part in RENDERING):
         systems.add("sensors")
