@@ -47,7 +47,7 @@ ROWS = (
     Row("sensors", "sensors and cameras: link, pose, rate, parameters", 0.0),
     Row("actuators", "drives of joints: kind, gear, gains, ranges", 0.0),
     Row("contact pairs", "links without contact, in two files of one format", 0.0),
-    Row("loops", "connections that close loops, in two files of one format", 0.0),
+    Row("loops", "connections that close loops, of one format, or URDF and SDF", 0.0),
     Row("configurations", "named joint positions, of two files of one format", 0.0),
     Row("plugins", "plugins of URDF and SDF: class and parameters", 0.0),
     Row("simulator data", "<gazebo>, <transmission>, <ros2_control> of two URDF", 0.0),

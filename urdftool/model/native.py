@@ -19,19 +19,23 @@ from .mechanism import NativeElement
 from .pose import IDENTITY, Pose, rpy_from_rotation
 from .provenance import Written
 from .sensors import read_sensor_pose
-from .settings import JOINT_TAGS, LINK_TAGS, LUMPING_TAGS, OF_JOINTS, SURFACE, Setting, Value
+from .settings import OF_JOINTS, SURFACE, Setting, Value
 
 if TYPE_CHECKING:
     from .provenance import Provenance
 
-HELD_TAGS = frozenset(
-    ("sensor", "plugin", "visual", "collision", "material", "velocity_decay", "inertial", "pose",
-     "parent", "child", "axis", "axis2", "physics", "static", "link", "frame",
-     "joint", "allow_auto_disable", "placement_frame", *JOINT_TAGS, *LINK_TAGS,
-     *LUMPING_TAGS, "canonicalBody")
-)  # fmt: skip
-"""Elements of links, joints and models that a robot has as values, or that Gazebo ignores."""
+NESTED = ("model", "include")
+"""Elements of a model in which links and joints are."""
 
+OTHER_TAGS = {
+    "link": (*("light", "projector", "particle_emitter", "battery", "audio_source", "audio_sink"),),
+    "joint": ("gearbox_ratio", "gearbox_reference_body", "thread_pitch"),
+    "model": ("gripper", *NESTED),
+}
+"""Elements of SDF that the robot does not have as values, by what they are in."""
+
+LOOP = "joint"
+"""Tag of the elements of a model that close loops; other joints are parts of the robot."""
 
 NAMED_BY_TAG = ("light", "projector")
 """Elements that have their tag as their name if they write none."""
@@ -106,10 +110,10 @@ def make_rest(
     return made if made.children else None
 
 
-def make_loop(element: Element) -> NativeElement:
+def make_loop(element: Element, name: str) -> NativeElement:
     """Return what the robot does not hold of a joint that closes a loop, such as its limits."""
-    made = NativeElement(Written(element.place, element), "model", "joint")
-    made.attributes = {"name": element.get("name") or ""}
+    made = NativeElement(Written(element.place, element), "model", LOOP)
+    made.attributes = {"name": name}
     rest = make_rest("model", "loop", element.children, made.provenance)
     made.children = [] if rest is None else rest.children
     made.held = frozenset()  # whether it exists is known from the loop
@@ -147,9 +151,9 @@ def _merge(target: NativeElement, added: Iterable[NativeElement]) -> None:
 def list_block_elements(robot: Robot) -> Iterator[NativeElement]:
     """Yield what the ``<gazebo>`` blocks of a URDF have in addition to what the robot holds."""
     for element in list_model_elements(robot):
-        if element.tag == "joint":
-            yield make_loop(element)
-        elif element.tag not in HELD_TAGS:
+        if element.tag == LOOP:
+            yield make_loop(element, element.get("name") or "")
+        elif _is_other("model", element):
             yield make_native("model", element)
     for link in robot.links:
         yield from _list_of_link(robot, link)
@@ -157,11 +161,16 @@ def list_block_elements(robot: Robot) -> Iterator[NativeElement]:
         yield from _list_of_joint(robot, joint)
 
 
+def _is_other(kind: str, element: Element) -> bool:
+    """Tell whether SDF has an element in a block; elements with a prefix are for programs."""
+    return element.tag in OTHER_TAGS[kind] or ":" in element.tag
+
+
 def _list_of_link(robot: Robot, link: Link) -> Iterator[NativeElement]:
     section = f"link {link.name}"
     elements = list(list_part_elements(robot, link))
     for element in elements:
-        if element.tag not in HELD_TAGS:
+        if _is_other("link", element):
             made = make_native(section, element, _compute_pose(robot, link, element))
             if element.tag in NAMED_BY_TAG and not made.name:
                 made.attributes["name"] = element.tag
@@ -203,7 +212,7 @@ def _list_of_joint(robot: Robot, joint: Joint) -> Iterator[NativeElement]:
     if made is not None:
         yield made
     for element in elements:
-        if element.tag not in HELD_TAGS and joint.name not in robot.link:
+        if _is_other("joint", element) and joint.name not in robot.link:
             yield make_native(section, element)
 
 

@@ -3,7 +3,8 @@
 import pytest
 
 import urdftool as api
-from measure.same_format.sdf import ADDITIONS, BASE, measure_sdf
+from measure.same_format.sdf import ADDITIONS, BASE, INERTIAL, measure_sdf
+from urdftool.compare.compare import compare_robots
 
 SOME = ("<light", '<sensor name="s" type="imu', "<gripper", "<battery", "<self_collide", "<plugin")
 
@@ -15,10 +16,50 @@ def test_additions_are_kept(tmp_path):
     assert set(results.values()) == {"kept"}
 
 
+def test_what_the_robot_does_not_hold_of_shapes_and_joints_is_kept(tmp_path):
+    words = ("gearbox", "libv.so", "soft_contact", "shader", "<density")
+    some = tuple((path, xml) for path, xml in ADDITIONS if any(word in xml for word in words))
+    results = {(r.what, r.verdict) for r in measure_sdf(tmp_path, some)}
+    assert len(results) >= 5
+    assert {what for what, verdict in results if verdict != "kept"} == {"<density>300</density>"}
+
+
 def test_what_is_not_read_is_reported(tmp_path):
-    some = tuple((path, xml) for path, xml in ADDITIONS if "gearbox" in xml or "libv.so" in xml)
-    codes = [code for result in measure_sdf(tmp_path, some) for code in result.codes]
-    assert codes == ["unread-element", "unread-look"]
+    some = tuple((path, xml) for path, xml in ADDITIONS if "auto_inertia_params" in xml)
+    assert [r.codes for r in measure_sdf(tmp_path, some)] == [["unread-inertial"]]
+
+
+LOOP = """<joint name="k" type="{kind}"><parent>a</parent><child>c</child>
+<axis><xyz>1 0 0</xyz></axis></joint>
+<joint name="loop" type="revolute"><parent>b</parent><child>c</child>
+<pose>0 0 1 0 0 0.5</pose><axis><xyz>0 1 0</xyz><limit><lower>-1</lower><upper>1</upper></limit>
+<dynamics><damping>0.3</damping></dynamics></axis></joint></model>"""
+
+
+def write_loop(path, kind, old="", new=""):
+    link = f'<link name="c"><pose>1 0 0 0 0.2 0</pose>{INERTIAL}</link>'
+    loop = LOOP.replace("{kind}", kind).replace(old, new, 1)
+    path.write_text(BASE.replace("</model>", link + loop))
+    return api.load(path)
+
+
+@pytest.mark.parametrize("kind", ["revolute", "fixed"])
+def test_a_loop_is_copied(tmp_path, kind):
+    source = write_loop(tmp_path / "a.sdf", kind)
+    written = api.export_sdf(source, tmp_path / "b.sdf", fixed_joints="lump", verify=True)
+    assert [c.name for c in written.checks if c.verdict == "differs"] == []
+    (loop,) = api.load(tmp_path / "b.sdf").closures
+    assert (loop.name, loop.child) == ("loop", "a" if kind == "fixed" else "c")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "row"),
+    [("0.3<", "0.4<", "other elements"), ("0 0 1 0 0 0.5", "0 0 2 0 0 0.5", "loops")],
+)
+def test_a_loop_is_compared(tmp_path, old, new, row):
+    one = write_loop(tmp_path / "a.sdf", "fixed")
+    other = write_loop(tmp_path / "b.sdf", "fixed", old, new)
+    assert {d.row for d in compare_robots(one, other).differences} == {row}
 
 
 def test_an_element_keeps_its_pose_when_its_link_is_merged(tmp_path):

@@ -14,6 +14,7 @@ from .extensions import convert_joint_extensions, report_dissolved_joint
 from .inertials import WEIGHTLESS
 from .joint_base import get_axis, start
 from .joint_settings import get_effort
+from .native import merge_native
 from .pose import set_pose
 from .sensors import add_joint_sensors
 from .translation import Translation
@@ -54,6 +55,7 @@ def add_joint(model: Node, t: Translation, part: Joint) -> None:
     _report_unspoken(node, t, part)
     add_joint_sensors(node, t, part)
     convert_joint_extensions(node, t, part)
+    merge_native(node, t, f"joint {part.name}", part)
 
 
 def _choose_type(t: Translation, part: Joint) -> str:

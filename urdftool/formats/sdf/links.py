@@ -13,6 +13,7 @@ from .frames import place
 from .gltf import undo_axis_conversion
 from .inertials import add_inertial
 from .materials import add_material
+from .native import merge_native
 from .sensors import add_sensors
 from .shape_names import choose_shape_names
 from .shapes import add_geometry, is_writable, set_place
@@ -63,6 +64,7 @@ def _add_one(node: Node, t: Translation, link: Link, part: Collision, name: str)
     assert part.geometry is not None
     add_geometry(made, t, part.geometry)
     merge_elements(made, t, link, "collision")
+    merge_native(made, t, f"link {link.name}", part)
     write_settings(made, part.surface, SURFACE)
 
 
@@ -110,3 +112,4 @@ def add_visual(node: Node, t: Translation, link: Link, part: Visual, name: str) 
     if retro is not None and not t.options.classic:
         add(made, "laser_retro", format_content(retro.content))
     merge_elements(made, t, link, "visual")
+    merge_native(made, t, f"link {link.name}", part)

@@ -6,27 +6,24 @@ from collections.abc import Container, Iterator
 
 from ...diagnostic import Severity
 from ...model.mechanism import NativeElement
-from ...model.native import HELD_PATHS, HELD_TAGS, make_loop, make_native, make_rest
+from ...model.native import HELD_PATHS, NESTED, OTHER_TAGS, make_loop, make_native, make_rest
 from ...model.provenance import Written
 from ...model.settings import OF_LINKS, OF_ROBOT
 from ...source.document import Element
 from .read_links import Context, compute_part_pose
 from .read_scope import Scope
 
-_IN_ROWS = frozenset(("sensor", "plugin"))
-"""Elements of which the robot has a part with all values."""
+_OF_MODEL = (*OTHER_TAGS["model"], "plugin")
+"""Elements of a model that are copied, and nested models."""
 
-_NESTED = ("model", "include")
-"""Elements whose links and joints the robot has."""
+_IN_ROWS = frozenset(("sensor", "plugin", *NESTED))
+"""Elements of which the robot has parts with all values."""
 
-_COPIED = (
-    *("sensor", "light", "projector", "particle_emitter", "battery", "audio_source"),
-    *("audio_sink", "plugin"),
-)
+_COPIED = (*OTHER_TAGS["link"], "sensor", "plugin")
 """Elements of a link that are copied, and reported as a whole for other formats."""
 
 _READ = {
-    "model": ("link", "joint", "frame", *_NESTED, "pose", "plugin", "gripper",
+    "model": ("link", "joint", "frame", *NESTED, "pose", "plugin", "gripper",
               *(row.path for row in OF_ROBOT)),
     "link": (*_COPIED, "inertial", "collision", "visual", "pose", *(row.path for row in OF_LINKS)),
     "joint": (*HELD_PATHS["joint"], "axis2"),
@@ -35,6 +32,14 @@ _READ = {
     "visual": (*HELD_PATHS["visual"], "material/pbr"),
 }  # fmt: skip
 """Paths of the elements that the robot holds, or that are copied or reported as a whole."""
+
+
+_ELEMENT = ("element", "elements are not read", Severity.WARNING)
+_REPORTED = {
+    "visual": ("look", "elements for the look are not read", Severity.INFO),
+    "inertial": ("inertial", "elements for the inertia are not read", Severity.WARNING),
+}
+"""Code, sentence and severity of what is not read, by what it is in."""
 
 
 def add_native(context: Context, top: Scope) -> None:
@@ -61,19 +66,16 @@ def _list_copied(context: Context, scope: Scope, prefix: str) -> Iterator[Native
     for item in scope.joints.values():
         yield from _list_of_joint(prefix + item.name, item.element, loops)
     for child in scope.element.children:
-        held = child.tag in _NESTED
-        if not prefix and (held or child.tag in ("plugin", "gripper") or _is_unknown(child)):
-            made = make_native("model", child)
-            made.held = _list_all(made) if held else made.held
-            yield _mark(made)
+        if not prefix and (child.tag in _OF_MODEL or _is_unknown("model", child)):
+            yield _mark(make_native("model", child))
         elif child.tag == "plugin":
             text = "plugins of nested models are not copied"
             context.record_loss("nested-plugin", text, child, Severity.INFO)
 
 
-def _is_unknown(element: Element) -> bool:
-    """Tell whether an element of a model is neither a part of it nor a setting."""
-    return element.tag not in HELD_TAGS and element.tag not in _READ["model"]
+def _is_unknown(kind: str, element: Element) -> bool:
+    """Tell whether an element of a model or link is neither a part of it nor a setting."""
+    return all(path.partition("/")[0] != element.tag for path in _READ[kind])
 
 
 def _list_of_link(
@@ -85,14 +87,14 @@ def _list_of_link(
             rest = make_rest(section, child.tag, (child,), Written(child.place, child))
             if rest is not None:
                 yield rest
-        elif child.tag in _COPIED or child.tag not in HELD_TAGS:
+        elif child.tag in _COPIED or _is_unknown("link", child):
             pose = compute_part_pose(context, scope, prefix, link, child)
             yield _mark(make_native(section, child, pose))
 
 
 def _list_of_joint(name: str, joint: Element, loops: Container[str]) -> Iterator[NativeElement]:
     if name in loops:
-        yield make_loop(joint)
+        yield make_loop(joint, name)
     else:
         rest = make_rest(f"joint {name}", "joint", (joint,), Written(joint.place, joint))
         if rest is not None:
@@ -103,14 +105,11 @@ def _list_of_joint(name: str, joint: Element, loops: Container[str]) -> Iterator
 
 
 def _mark(made: NativeElement) -> NativeElement:
-    """Set what other parts of the robot hold of a sensor or plugin."""
+    """Set what other parts of the robot hold of a sensor, a plugin or a nested model."""
     if made.tag in _IN_ROWS:
-        made.held = _list_all(made)
+        tags = (child.tag for child in made.children)
+        made.held = frozenset(("text", *made.attributes, *tags))
     return made
-
-
-def _list_all(made: NativeElement) -> frozenset[str]:
-    return frozenset(("text", *made.attributes, *(child.tag for child in made.children)))
 
 
 def _report_unread(context: Context, element: Element, kind: str) -> None:
@@ -119,9 +118,7 @@ def _report_unread(context: Context, element: Element, kind: str) -> None:
     for path, child in _list_leaves(element, ""):
         if ":" in path or any(_has_below(one, path) or _has_below(path, one) for one in read):
             continue
-        severity = Severity.INFO if kind == "visual" else Severity.WARNING
-        code = "look" if kind == "visual" else "element"
-        what = "elements for the look are not read" if kind == "visual" else "elements are not read"
+        code, what, severity = _REPORTED.get(kind, _ELEMENT)
         name = f"{path} of <{kind}> {element.get('name') or ''}".strip()
         context.losses.add(code, what, name, child.place, severity)
 

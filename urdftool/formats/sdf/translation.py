@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from ...diagnostic import Severity
 from ...model.elements import Joint, Link, Part, Robot
+from ...model.mechanism import NativeElement
 from ...source.document import Element
+from ...source.location import Place
 from ..common.actuator_config import JointSettings
 from ..written import Written
 from .mesh_files import MeshFiles
@@ -27,6 +30,14 @@ class Translation:
     meshes: MeshFiles
     written: Written
     settings: Mapping[str, JointSettings] = field(default_factory=dict)
+
+    @cached_property
+    def rest(self) -> dict[tuple[str, Place], list[NativeElement]]:
+        """Return what shapes and joints of an SDF have in addition, by section and place."""
+        found: dict[tuple[str, Place], list[NativeElement]] = {}
+        for element in self.robot.native if self.robot.format == "sdf" else ():
+            found.setdefault((element.section, element.place), []).append(element)
+        return found
 
     def report_loss(
         self,

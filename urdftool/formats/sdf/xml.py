@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from lxml import etree
 
+from ...model.mechanism import NativeElement
+from ...model.provenance import Written
 from ...source.document import Element
 
 Node = etree._Element
@@ -51,6 +53,21 @@ def append_copy(parent: Node, element: Element, tag: str | None = None) -> Node:
         node.text = text
     for child in element.children:
         append_copy(node, child)
+    return node
+
+
+def append_native(parent: Node, element: NativeElement) -> Node:
+    """Append an element with its children; prefixes mean what they mean in its source."""
+    source = element.provenance
+    assert isinstance(source, Written)
+    assert source.element is not None
+    tag = _name(source.element, element.tag)
+    node = etree.SubElement(parent, tag, nsmap=_collect_prefixes(source.element))
+    for name, value in element.attributes.items():
+        node.set(_name(source.element, name), value)
+    node.text = element.text or None
+    for child in element.children:
+        append_native(node, child)
     return node
 
 

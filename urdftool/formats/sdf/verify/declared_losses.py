@@ -58,7 +58,7 @@ EXCUSES = (
     Excuse(("sensors", "plugins"), frozenset((DROPPED,)), properties=("existence",)),
     Excuse(("sensors",), frozenset(("lossy-frame-id",)), properties=("frame",)),
     Excuse(("sensors",), BLOCKS | {"lossy-sensor", "unknown-sensor-type"}, least=Severity.WARNING),
-    Excuse((NATIVE,), frozenset(("lossy-sdf-element", "lossy-joint-extension"))),
+    Excuse((NATIVE, "loops"), frozenset(("lossy-sdf-element", "lossy-joint-extension"))),
     Excuse((NATIVE, "loops"), BLOCKS, "body", least=Severity.WARNING),
     Excuse((NATIVE,), SHAPES, "body"),
     Excuse(_PARTS, BLOCKS | {"lossy-link-flag"}, least=Severity.WARNING),
