@@ -157,7 +157,7 @@ def try_pair(sample: Sample, kinds: tuple[str, str], seed: int, known: Known) ->
         for kind in silent:
             why = explain_silence(sample, kind, seed, known, new)
             yield f"  not named: {why.partition(':')[0]}"
-            yield f"    {sample.name} {kinds}, {kind}: {why}"
+            yield f"    {sample.name} {kinds} {seed}, {kind}: {why}"
         path = Path(folder) / "robot.urdf"
         options = Options(packages=sample.packages, fixes=True)
         report = check_file(path, options)

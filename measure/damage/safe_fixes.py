@@ -42,6 +42,7 @@ STATED = {
     # rule: row of ``verify``, and what differs; what readers did not read, or read wrongly, before
     "bad-extension-number": {("surface", "second friction")},
     "empty-material-name": {("MJCF", "")},  # its name, not its color
+    "malformed-uri": {("SDF", ""), ("MJCF", ""), ("visuals", "visual")},  # the mesh is found
     "mesh-case-mismatch": {("visuals", "visual")},
     "missing-gazebo-material": {("looks", "ambient"), ("simulator data", "visual added"),
                                 ("simulator data", "visual/material added"),

@@ -125,3 +125,17 @@ def test_an_inertia_that_its_mirror_image_contradicts_is_not_written(tmp_path, m
     body = SOLID.format(mass, mass * 0.0083, mass * 0.00167)
     done = _fix(tmp_path, _arm("left_arm", 0.5, body), _arm("right_arm", -0.5, BOX))
     assert done.applied["missing-inertial"] == count
+
+
+@pytest.mark.parametrize(("used", "name"), [("other_joint", "other_joint"), ("x", "x_joint_2")])
+def test_the_second_joint_of_a_name_gets_the_name_that_a_transmission_uses(tmp_path, used, name):
+    body = SOLID.format(1, 0.01, 0.002)
+    parts = [_arm("x", -0.5, body), _arm("y", 0.5, body).replace("y_joint", "x_joint")]
+    uses = "".join(
+        f'<transmission name="t{n}"><type>transmission_interface/SimpleTransmission</type>'
+        f'<joint name="{one}"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>'
+        f'<actuator name="m{n}"/></transmission>'
+        for n, one in enumerate(("x_joint", used.replace("x", "x_joint")))
+    )
+    done = _fix(tmp_path, *parts, uses)
+    assert f'<joint name="{name}" type'.encode() in next(iter(done.after.values()))

@@ -252,3 +252,17 @@ def test_a_urdf_file_that_uses_arguments_of_another_is_its_part(tmp_path, folder
 
 
 MESH = '<mesh filename="{}/a.stl"/>'
+
+
+@pytest.mark.parametrize("scale", [1, 1000])
+def test_a_visual_in_millimeters_covers_no_collision_of_its_neighbor(tmp_path, scale):
+    trimesh.creation.box((0.3, 0.3, 0.3)).export(tmp_path / "shin.stl")
+    shin = f'<visual><geometry><mesh filename="shin.stl" scale="{scale} {scale} {scale}"/>'
+    near, far = (
+        BOX.format(*one) for one in (("visual", "0.4 0.1 0.1"), ("collision", "0.1 0.1 0.1"))
+    )
+    far = far.replace("<collision>", '<collision><origin xyz="2 0 0"/>')
+    parts = [LINK.format("thigh", BODY.format(mass=1, moment=0.01) + near + far)]
+    parts += [LINK.format("shin", f"{shin}</geometry></visual>")]
+    parts += [JOINT.format("knee", "continuous", "thigh", "shin", '<origin xyz="0 0 -0.4"/>')]
+    assert len(find(tmp_path, "collision-off-visual", *parts)) == 1

@@ -215,13 +215,16 @@ def _covers(box: Bounds | None, other: Bounds) -> bool:
 def _get_visuals_around(robot: Robot, reach: LinkExtents, link: Link) -> Iterator[Bounds | None]:
     """Get the boxes of the visuals of attached and joined links, in the frame of a link.
 
-    Attached links with collisions of their own are skipped.
+    Attached links with collisions of their own are skipped, and so are those with a mesh in
+    another unit, which is reported by itself.
     """
     members = find_attached_links(robot, link)
     without = [member for member in members[1:] if not member[0].collisions]
     for other, at in (*without, *_get_joined_links(robot, members)):
         if other.visuals:
-            yield reach.get_body_box(link, "visuals", [(other, at)])
+            box = reach.get_body_box(link, "visuals", [(other, at)])
+            if box is not None or not reach.is_in_another_unit(other.visuals):
+                yield box
 
 
 def _get_joined_links(

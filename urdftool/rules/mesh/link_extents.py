@@ -86,12 +86,19 @@ class LinkExtents:
         return self._boxes[id(shape)]
 
     def _get_mesh_box(self, shape: Visual | Collision) -> Bounds | None:
-        use = self.get_use(shape)
-        box = compute_mesh_box(use) if use is not None and 0 not in use.mesh.scale else None
-        if box is None:
-            return None
+        box = self._get_written_box(shape)
         # a mesh in another unit is reported by itself, and does not show the size of the link
-        return box if SMALLEST < max(box.size) < LARGEST else None
+        return box if box is not None and SMALLEST < max(box.size) < LARGEST else None
+
+    def _get_written_box(self, shape: Visual | Collision) -> Bounds | None:
+        """Get the bounding box of a mesh at its scale; None if unknown."""
+        use = self.get_use(shape)
+        return compute_mesh_box(use) if use is not None and 0 not in use.mesh.scale else None
+
+    def is_in_another_unit(self, shapes: Sequence[Visual | Collision]) -> bool:
+        """Tell whether a mesh is so large or small that it is in another unit than meters."""
+        boxes = [self._get_written_box(one) for one in shapes if isinstance(one.geometry, Mesh)]
+        return any(box and not SMALLEST < max(box.size) < LARGEST for box in boxes)
 
     def get_shapes_box(self, shapes: Sequence[Visual | Collision]) -> Bounds | None:
         """Get the bounding box of several shapes; None if one is unknown or there are none."""

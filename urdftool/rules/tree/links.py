@@ -137,9 +137,12 @@ def report_every_second_joint(robot: Robot) -> Iterator[Problem]:
 
 @duplicate_joint_name.fix(UNSAFE)
 def number_joint_name(problem: Problem, context: FixContext) -> Proposal | None:
-    """Append a number to the second name."""
-    joint = context.get_joint(problem)
-    name = _find_free_name(joint.name, {*context.robot.joint, *context.robot.link})
+    """Write the only name that a ``<transmission>`` uses and no joint has, or append a number."""
+    joint, robot = context.get_joint(problem), context.robot
+    taken = {*robot.joint, *robot.link}
+    used = {one.name for each in robot.transmissions for one in each.joints}
+    missed = used - taken - {""}
+    name = missed.pop() if len(missed) == 1 else _find_free_name(joint.name, taken)
     return unsafe(f"rename it to '{name}'", set_attribute(joint.element, "name", name))
 
 
