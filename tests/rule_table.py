@@ -18,7 +18,7 @@ _HEAD = '''"""Facts about rules that are known without importing them.
 Written by ``python -m tests.rule_table`` from the decorators; not to be edited.
 """
 
-from .rule import BOTH, SAFE, UNSAFE, FixTraits
+from .fix_traits import BOTH, SAFE, UNSAFE, FixTraits
 
 '''
 

@@ -13,8 +13,9 @@ from urdftool.diagnostic import Severity
 from urdftool.report.file_diff import format_file_diff
 from urdftool.report.rule_pages import get_effect_source, get_facts
 from urdftool.rules import get_all_rules, get_rule
-from urdftool.rules.rule import TARGETS, Rule
+from urdftool.rules.rule import Rule
 from urdftool.rules.table import FIXES, RULES
+from urdftool.rules.targets import TARGETS
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures" / "rules"
 DESCRIPTIONS = (".urdf", ".xacro")

@@ -37,7 +37,7 @@ def _collect_names(metavar: str) -> list[str]:
         rules = [name for groups in RULES.values() for group in groups.values() for name in group]
         return rules if metavar == "RULE" else [*RULES, *rules]
     if metavar == "TARGET":
-        from ..rules.rule import TARGETS
+        from ..rules.targets import TARGETS
 
         return list(TARGETS)
     return []

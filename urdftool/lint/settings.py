@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatch
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..configuration import Configuration
 from ..diagnostic import Severity
@@ -15,9 +15,12 @@ from ..errors import ConfigError
 from ..memo import Memo
 from ..rules import FAMILIES, FAMILY_OF, applies_to, get_rule
 from ..rules.old_names import resolve_rule, resolve_selectors, resolve_threshold
-from ..rules.rule import TARGETS, Rule
+from ..rules.targets import TARGETS
 from ..suggestions import find_nearest as nearest_name
 from ..suggestions import suggest_name
+
+if TYPE_CHECKING:
+    from ..rules.rule import Rule
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
 _KEYS = (*_LISTS, "severity", "per-file-ignores", "variants", "robots", "exclude")

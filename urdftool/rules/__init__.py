@@ -10,9 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Set
 from functools import cache
 from importlib import import_module
+from typing import TYPE_CHECKING
 
-from .rule import Rule
 from .table import APPLIES_TO, RULES
+
+if TYPE_CHECKING:
+    from .rule import Rule
 
 FAMILIES = (
     *("xml", "xacro", "tree", "joint", "inertia", "collision", "visual", "mesh", "package"),

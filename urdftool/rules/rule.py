@@ -60,18 +60,17 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from types import FunctionType
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..diagnostic import Severity
 from ..finding import Scope
+from .fix_traits import BOTH as BOTH
+from .fix_traits import SAFE as SAFE
+from .fix_traits import UNSAFE as UNSAFE
+from .fix_traits import FixTraits as FixTraits
 from .problem import Problem as Problem
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
-
-TARGETS = (
-    *("ros1", "ros2", "gazebo-classic", "gz", "mujoco", "pybullet", "moveit"),
-    *("newton", "isaac"),
-)
 
 GAZEBO = ("gazebo-classic", "gz")
 ROS = ("ros1", "ros2")
@@ -82,9 +81,6 @@ URDF_AND_SDF = ("urdf", "sdf")
 Check = Callable[..., Iterable[Problem]]
 CheckRobot = Callable[["Robot"], Iterable[Problem]]
 
-SAFE, UNSAFE, BOTH = "safe", "unsafe", "safe or unsafe"
-"""Applicability of the fixes of a rule; ``BOTH`` if it depends on the case."""
-
 if TYPE_CHECKING:
     from ..model.elements import Robot
     from .fix import MakeFix, MakeFixOfFile, Proposal
@@ -92,41 +88,6 @@ if TYPE_CHECKING:
     Make = TypeVar("Make", MakeFix, MakeFixOfFile)
 else:
     Make = TypeVar("Make")
-
-
-class FixTraits(NamedTuple):
-    """Facts about the fix of a rule, known without importing the rule.
-
-    Attributes:
-        applicability: ``SAFE``, ``UNSAFE`` or ``BOTH``.
-        of_file: Whether it edits the bytes of a file that could not be read or expanded, and takes
-            the finding in place of a problem.
-        writes_meshes: Whether it writes mesh files, which requires ``--fix-meshes``.
-        renames: Whether it changes names that other fixes refer to; it is tried separately.
-        reveals: Whether it lets readers see content that they ignored, with its own defects, so
-            that more findings are no reason to revert it.
-    """
-
-    applicability: str
-    of_file: bool = False
-    writes_meshes: bool = False
-    renames: bool = False
-    reveals: bool = False
-
-    @property
-    def option(self) -> str:
-        """Options of ``lint`` that apply it: ``--fix --unsafe-fixes``."""
-        unsafe = " --unsafe-fixes" if self.applicability == UNSAFE else ""
-        return f"--fix{unsafe}" + (" --fix-meshes" if self.writes_meshes else "")
-
-    @property
-    def described(self) -> str:
-        """Applicability, with the options in parentheses."""
-        meshes = " --fix-meshes" if self.writes_meshes else ""
-        safe, unsafe = f"(--fix{meshes})", f"(--fix --unsafe-fixes{meshes})"
-        if self.applicability == BOTH:
-            return f"safe {safe} in some cases, unsafe {unsafe} in others"
-        return f"safe {safe}" if self.applicability == SAFE else f"unsafe {unsafe}"
 
 
 @dataclass

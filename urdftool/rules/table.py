@@ -3,7 +3,7 @@
 Written by ``python -m tests.rule_table`` from the decorators; not to be edited.
 """
 
-from .rule import BOTH, SAFE, UNSAFE, FixTraits
+from .fix_traits import BOTH, SAFE, UNSAFE, FixTraits
 
 RULES: dict[str, dict[str, tuple[str, ...]]] = {
     "xml": {
