@@ -13,6 +13,7 @@ from .bodies import Bodies, Body
 from .difference import Comparison, Difference
 from .frames import format_vector
 from .pair import Match, Pair, locate
+from .rows import Row
 
 Properties = tuple[float, Array, Array]
 
@@ -196,7 +197,11 @@ def _add_unmatched(
     two: dict[str, Properties],
     comparison: Comparison,
 ) -> None:
-    """Record links with mass that the body of only one robot has."""
+    """Record links with mass that the body of only one robot has.
+
+    A link of one and a link of the other with equal properties are the same mass.
+    """
+    one, two = _drop_moved(pair, match, one, two, comparison.rows)
     top = pair.a.robot.link[match.one.name], pair.b.robot.link[match.two.name]
     known = {pair.links.get(x, x) for x in one}
     for x, (mass, _, _) in one.items():
@@ -214,6 +219,33 @@ def _add_unmatched(
             values = None, mass
             names = other.name if other.name == y else "", y
             comparison.add(Difference("mass", "link", names, "mass", values, "kg", 1.0, places))
+
+
+def _drop_moved(
+    pair: Pair,
+    match: Match,
+    one: dict[str, Properties],
+    two: dict[str, Properties],
+    rows: tuple[Row, ...],
+) -> tuple[dict[str, Properties], dict[str, Properties]]:
+    """Return the links without those whose mass is that of a link with another name."""
+    known = {x: y for x in one if (y := pair.links.get(x, x)) in two}
+    left, right = (
+        {n: p for n, p in side.items() if n not in names}
+        for side, names in ((one, known.keys()), (two, known.values()))
+    )
+    for x, part in left.items():
+        for y, other in right.items():
+            trial = _compare_links(pair, match, (x, y), (part, other), Comparison(rows))
+            if trial.is_equal:
+                one, two = _omit(one, x), _omit(two, y)
+                right = _omit(right, y)
+                break
+    return one, two
+
+
+def _omit(parts: dict[str, Properties], name: str) -> dict[str, Properties]:
+    return {other: part for other, part in parts.items() if other != name}
 
 
 def _list_massive(

@@ -413,11 +413,15 @@ def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
 
 
 def _measure_colors(one: Rgba | None, two: Rgba | None) -> tuple[float, tuple[str, str]]:
-    """Return the largest difference of two colors, infinite if one is none, and both as text."""
+    """Return the largest difference of two colors, infinite if one is none, and both as text.
+
+    An alpha above 1 is opaque.
+    """
     texts = ["none" if rgba is None else format_vector(np.array(rgba)) for rgba in (one, two)]
     if one is None or two is None:
         return float("inf"), (texts[0], texts[1])
-    return float(np.abs(np.array(one) - np.array(two)).max()), (texts[0], texts[1])
+    opaque = [np.minimum(rgba, (np.inf, np.inf, np.inf, 1.0)) for rgba in (one, two)]
+    return float(np.abs(opaque[0] - opaque[1]).max()), (texts[0], texts[1])
 
 
 def _find_material(pair: Pair, robot: Robot, placed: Placed) -> Material | None:

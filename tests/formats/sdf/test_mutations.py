@@ -86,7 +86,7 @@ def damaged(text, chance):
 
 
 @pytest.mark.parametrize(
-    "count", [150, pytest.param(3000, marks=[pytest.mark.slow, pytest.mark.corpus])]
+    "count", [150, pytest.param(1000, marks=[pytest.mark.slow, pytest.mark.corpus])]
 )
 def test_damaged_robots(urdftool, write, tmp_path, monkeypatch, count):
     monkeypatch.setattr(compare, "run_loads", lambda *_: None)
