@@ -238,13 +238,13 @@ def _drop_moved(
         for y, other in right.items():
             trial = _compare_links(pair, match, (x, y), (part, other), Comparison(rows))
             if trial.is_equal:
-                one, two = _omit(one, x), _omit(two, y)
-                right = _omit(right, y)
+                one, two = _remove_part(one, x), _remove_part(two, y)
+                right = _remove_part(right, y)
                 break
     return one, two
 
 
-def _omit(parts: dict[str, Properties], name: str) -> dict[str, Properties]:
+def _remove_part(parts: dict[str, Properties], name: str) -> dict[str, Properties]:
     return {other: part for other, part in parts.items() if other != name}
 
 
