@@ -12,7 +12,7 @@ from .changed_settings import compare_settings
 from .extensions import compare_extensions
 from .links import describe_pose, link_changes
 from .mechanisms import compare_mechanisms
-from .native import compare_native, share_elements
+from .native import are_of_one_format, compare_native
 from .tolerance import TOLERANCE, are_close, close, format_motion, is_same_pose
 
 
@@ -53,7 +53,7 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
     yield from compare_extensions(a, b, tolerance, renamed)
     yield from compare_settings(a, b, tolerance, renamed)
     yield from compare_mechanisms(a, b, tolerance, renamed)
-    if share_elements(a, b):
+    if are_of_one_format(a, b):
         yield from compare_native(a.native, b.native, tolerance, renamed)
 
 

@@ -14,7 +14,7 @@ from .difference import EXISTENCE, Comparison, Difference
 from .extensions import BLOCKS, collect_tags, compare_extensions
 from .loops import put_loops_into_bodies
 from .mechanisms import compare_mechanisms, list_parts_by_kind
-from .native import compare_native, list_in_bodies, share_elements
+from .native import are_of_one_format, compare_native, list_in_bodies
 from .pair import Pair
 from .rows import NATIVE
 
@@ -50,7 +50,7 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
     """
     rows = [row for row in comparison.tolerances if row in (*_ROW_OF.values(), NATIVE)]
     a, b = pair.a.robot, pair.b.robot
-    shared = share_elements(a, b)
+    shared = are_of_one_format(a, b)
     if pair.formats[0] != pair.formats[1]:
         compared = ("actuators", "sensors", *((_LOOPS, NATIVE) if shared else ()))
         for row in rows:

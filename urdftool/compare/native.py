@@ -55,7 +55,7 @@ def compare_native(
                 yield replace(change, owner=key[0].partition(" ")[2])
 
 
-def share_elements(a: Robot, b: Robot) -> bool:
+def are_of_one_format(a: Robot, b: Robot) -> bool:
     """Tell whether two robots have elements of one format, which can be compared.
 
     The elements of ``<gazebo>`` blocks of a URDF are those of SDF. Blocks of two URDF are compared
