@@ -9,7 +9,9 @@ import time
 import zipfile
 
 import pytest
+import yaml
 
+import urdftool as api
 from tests.bundle import files
 from tests.conftest import FIXTURES
 
@@ -112,7 +114,13 @@ def test_a_ros_package(urdftool, project, tmp_path):
     )
     assert '"package://arm_description/meshes/arm.obj"' in (out / "urdf" / "arm.urdf").read_text()
     assert "<license>MIT</license>" in (out / "package.xml").read_text()
-    compile((out / "launch" / "display.launch.py").read_text(), "launch", "exec")
+    launch = (out / "launch" / "display.launch.py").read_text()
+    compile(launch, "launch", "exec")
+    assert 'arguments=["-d", str(PACKAGE / "rviz/display.rviz")]' in launch
+    view = yaml.safe_load((out / "rviz" / "display.rviz").read_text())["Visualization Manager"]
+    root = api.load(out / "urdf" / "arm.urdf").tree.roots[0].name
+    assert view["Global Options"]["Fixed Frame"] == root
+    assert " rviz " in (out / "CMakeLists.txt").read_text()
     moved = out.rename(tmp_path / "moved")
     assert urdftool("info", moved / "urdf" / "arm.urdf").code == 0
     assert "MESH" not in urdftool("lint", moved / "urdf" / "arm.urdf", "--select", "mesh").out

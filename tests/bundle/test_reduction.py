@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -159,6 +160,10 @@ def test_a_mesh_that_cannot_be_reduced_is_announced(urdftool, write, tmp_path):
     write("a.stl", ascii_stl(np.array(spikes), faces))
     result = bundle(urdftool, write, "a.stl", "--max-triangles", "12")
     assert "[large-mesh]" in result.err
+    lines = result.err.splitlines()
+    (last,) = [line for line in lines if line.startswith("more triangles than --max-triangles in ")]
+    assert "in 1 mesh: meshes/" in last
+    assert all((tmp_path / "out" / name).is_file() for name in re.findall(r"\S+\.\w+(?= \()", last))
 
 
 @pytest.mark.library("PIL")

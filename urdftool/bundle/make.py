@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -98,7 +98,10 @@ class Bundle:
 
 
 def make_bundle(
-    robot: Robot, options: BundleOptions | None = None, original: Robot | None = None
+    robot: Robot,
+    options: BundleOptions | None = None,
+    original: Robot | None = None,
+    progress: Callable[[int, int, str], None] | None = None,
 ) -> Bundle:
     """Make a bundle of a robot.
 
@@ -106,6 +109,7 @@ def make_bundle(
         robot: A robot that was read from URDF or xacro.
         options: Options; None for the defaults.
         original: The robot in another format of which ``robot`` was made; None if there is none.
+        progress: Called with the number of stored files, that of all, and the next file.
 
     Raises:
         Refused: A mesh is missing or is not a mesh.
@@ -120,7 +124,7 @@ def make_bundle(
     package = _choose_package_name(options, name)
     found = collect(robot)
     refuse(found.defects, force=options.force, fatal=frozenset())
-    stored = store_assets(found, _choose_conversion(robot, options), options.limits)
+    stored = store_assets(found, _choose_conversion(robot, options), options.limits, progress)
     uris = {uri: _format_uri(stored.places[a], options, package) for uri, a in found.assets.items()}
     visual_uris = {
         uri: _format_uri(stored.visual_places[asset], options, package)
@@ -151,14 +155,15 @@ def make_bundle(
     bundle.manifest.arguments = {
         name: replace_folders(value, own_folders) for name, value in manifest.arguments.items()
     }
-    bundle.notes = [*found.notes, *found.defects, *_report_conversions(robot, found, stored)]
+    found_in_meshes = _report_conversions(robot, found, stored, options.limits.max_triangles)
+    bundle.notes = [*found.notes, *found.defects, *found_in_meshes]
     bundle.notes += changes
     bundle.manifest.changes += [change.message for change in changes]
     _add_origin(bundle, source_robot, stored)
     if options.uri_form == "package":
         licenses = [text for texts in bundle.manifest.licenses.values() for text in texts]
         folders = {path.partition("/")[0] for path in bundle.files if "/" in path}
-        bundle.files |= make_package_files(package, robot.name, description, licenses, folders)
+        bundle.files |= make_package_files(package, robot, description, licenses, folders)
     add_manifest(bundle)
     return bundle
 
@@ -205,7 +210,9 @@ def _choose_conversion(robot: Robot, options: BundleOptions) -> Conversion | Non
     return None
 
 
-def _report_conversions(robot: Robot, found: Collection, stored: Stored) -> Iterator[Finding]:
+def _report_conversions(
+    robot: Robot, found: Collection, stored: Stored, limit: int | None
+) -> Iterator[Finding]:
     """Yield what converted and reduced meshes lost, and which meshes are not converted."""
     seen: set[str] = set()
     for link, shape in robot.shapes:
@@ -220,9 +227,14 @@ def _report_conversions(robot: Robot, found: Collection, stored: Stored) -> Iter
         for loss in stored.losses.get(asset, ()):
             text = f"mesh '{mesh.filename}' of link '{link.name}' was converted: {loss}"
             yield Finding("lossy-mesh", Severity.WARNING, text, place, "link", link.name)
-        if reached := stored.unreached.get(asset):
-            text = f"mesh '{mesh.filename}' of link '{link.name}' has {reached}"
-            yield Finding("large-mesh", Severity.WARNING, text, place, "link", link.name)
+        if count := stored.unreached.get(asset):
+            file = stored.visual_places.get(asset) or stored.places[asset]
+            text = (
+                f"mesh '{mesh.filename}' of link '{link.name}' has {count:,} triangles, more than "
+                f"{limit:,}; fewer would change its shape too much ('{file}' in the bundle)"
+            )
+            data = {"file": file, "triangles": count}
+            yield Finding("large-mesh", Severity.WARNING, text, place, "link", link.name, data=data)
         if asset in stored.failed:
             why = stored.failed[asset]
             text = f"mesh '{mesh.filename}' of link '{link.name}' is not converted: {why}"

@@ -75,7 +75,7 @@ class Stored:
         sources: Source files by path.
         losses: What a converted mesh lost, by asset.
         failed: Why a mesh was not converted, by asset.
-        unreached: How many triangles a mesh has that has more than the limit, by asset.
+        unreached: Number of triangles of a mesh that has more than the limit, by asset.
         missing: References to files that the source does not have, as written in the bundle, by
             path.
     """
@@ -88,12 +88,15 @@ class Stored:
     sources: dict[str, list[Path]] = field(default_factory=dict)
     losses: dict[Asset, tuple[str, ...]] = field(default_factory=dict)
     failed: dict[Asset, str] = field(default_factory=dict)
-    unreached: dict[Asset, str] = field(default_factory=dict)
+    unreached: dict[Asset, int] = field(default_factory=dict)
     missing: dict[str, list[str]] = field(default_factory=dict)
 
 
 def store_assets(
-    found: Collection, conversion: Conversion | None = None, limits: Limits | None = None
+    found: Collection,
+    conversion: Conversion | None = None,
+    limits: Limits | None = None,
+    progress: Callable[[int, int, str], None] | None = None,
 ) -> Stored:
     """Assign a path to each file, convert and reduce meshes, and rewrite references between files.
 
@@ -101,9 +104,12 @@ def store_assets(
         found: The files.
         conversion: Conversion of meshes; None keeps them.
         limits: Limits of visual meshes and images; None for none.
+        progress: Called with the number of stored files, that of all, and the next file.
     """
     store = _Store(conversion, limits or Limits())
-    for asset in found.assets.values():
+    for number, asset in enumerate(found.assets.values()):
+        if progress is not None:
+            progress(number, len(found.assets), asset.path.name)
         store.add(asset)
     return store.stored
 
@@ -178,9 +184,7 @@ class _Store:
         count = len(mesh.faces if reduced is None else reduced.mesh.faces)
         limit = self._limits.max_triangles
         if limit is not None and count > limit:
-            self.stored.unreached[asset] = (
-                f"{count:,} triangles, more than {limit:,}; fewer would change its shape too much"
-            )
+            self.stored.unreached[asset] = count
         return reduced
 
     def _shrink(self, asset: Asset, content: Content) -> tuple[Content, Reduction | None]:

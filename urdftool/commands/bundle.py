@@ -134,6 +134,7 @@ def command(
     from ..lint.validate import require as require_purpose
     from ..refusal import Refused
     from .export_report import report_refused, restore_output
+    from .progress import Progress
 
     as_json = as_json or "json" in formats
     formats = tuple(name for name in formats if name != "json")
@@ -146,7 +147,8 @@ def command(
     with TemporaryDirectory(prefix="urdftool-") as folder:
         try:
             original, model, losses = _convert(model, Path(os.path.realpath(folder)), options.force)
-            bundle = make_bundle(model, options, original)
+            with Progress(console, "files") as progress:
+                bundle = make_bundle(model, options, original, progress)
             bundle.notes[:0] = losses
             if formats or srdf is not None:
                 from ..bundle.add_formats import add_formats, add_srdf  # imports numpy
@@ -245,6 +247,11 @@ def _report(console: Console, bundle: Bundle, output: str) -> None:
     total = sum(entry["bytes"] for entry in bundle.manifest.files.values())
     count = format_count(len(bundle.files), "file")
     console.print_note(f"{output}: {bundle.description}, {count}, {total / 1e6:.1f} MB")
+    large = {f.data["file"]: f.data["triangles"] for f in bundle.notes if f.code == "large-mesh"}
+    if large:
+        listed = ", ".join(f"{file} ({number:,})" for file, number in sorted(large.items()))
+        meshes = format_count(len(large), "mesh", "meshes")
+        console.print_note(f"more triangles than --max-triangles in {meshes}: {listed}")
 
 
 def _finish(

@@ -4,6 +4,7 @@ import pytest
 
 from tests.formats.mjcf.robots import export, find, tree
 from tests.formats.test_standing_pose import quadruped
+from tests.formats.test_upright import write_robot
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
@@ -28,6 +29,17 @@ def test_additions_are_written(write):
     assert condims
     assert {geom.get("priority") for geom in condims} == {"1"}
     assert {actuator.tag for actuator in model.find("actuator")} == {"position"}
+
+
+@pytest.mark.parametrize(("radius", "feet"), [(0.02, 4), (0.3, 0)])
+def test_a_continuous_joint_moves_a_foot_unless_it_turns_a_wheel(write, tmp_path, radius, feet):
+    """Straight legs end in balls; of the height of the robot, they are wheels around their axes."""
+    path = write_robot(tmp_path, up=2)
+    text = path.read_text().replace('type="revolute"', 'type="continuous"')
+    down = "0 0 0" if radius > 0.1 else "0 0 -0.3"
+    text = text.replace('xyz="0 0 -0.3"', f'xyz="{down}"').replace('"0.02"', f'"{radius}"')
+    model = tree(export_for_rl(write("r.urdf", text)))
+    assert sum(geom.get("condim") == "6" for geom in model.iter("geom")) == feet
 
 
 def test_values_of_description_and_user_are_kept(write):

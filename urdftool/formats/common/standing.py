@@ -150,12 +150,12 @@ def explain_free_base(
     ground = measure_ground(tree, boxes, positions)
     if ground is None:
         return None
-    stands = ground.get_near(LEVEL)
+    stands, poses = ground.get_near(LEVEL), compute_level_poses(tree.robot, positions)
     wheels = [
         joint.name
         for joint in tree.moving
         if joint.child in stands and joint.type == "continuous"
-        if _is_wheel(tree, joint, positions, ground)
+        if is_wheel(joint, poses[joint.child], ground)
     ]
     driven = [name for name in wheels if name in commanded]
     if driven:
@@ -233,11 +233,14 @@ def _compute_top(ground: Ground) -> float:
     return ground.low + LEVEL * ground.size
 
 
-def _is_wheel(
-    tree: RigidTree, joint: Joint, positions: Mapping[str, float], ground: Ground
-) -> bool:
-    """Tell whether a joint rotates a round body about a horizontal axis through its center."""
-    pose = compute_level_poses(tree.robot, positions)[joint.child]
+def is_wheel(joint: Joint, pose: Pose, ground: Ground) -> bool:
+    """Tell whether a joint rotates a round body about a horizontal axis through its center.
+
+    Args:
+        joint: The joint.
+        pose: Pose of its child in the frame in which the ground was measured.
+        ground: The boxes of the bodies.
+    """
     x, y, z = rotate(pose.rotation, joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
     length = math.hypot(x, y, z)
     low, high = _get_around(ground.boxes[joint.child])

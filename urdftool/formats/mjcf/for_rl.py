@@ -10,12 +10,14 @@ from dataclasses import replace
 
 from ...diagnostic import Severity
 from ...model.elements import Dynamics, Joint, Link, Robot
+from ...model.kinematics import link_poses
 from ...model.mechanism import MountedSensor
+from ...model.pose import Pose
 from ...model.settings import Settings, Value
 from ..common.actuator_config import JointSettings
 from ..common.drive_choice import Drive
 from ..common.servo_gains import drop_unlimited
-from ..common.standing import CLEARANCE, Ground
+from ..common.standing import CLEARANCE, Ground, is_wheel
 from ..written import Written
 from .joint import get_effort
 from .structure import Structure
@@ -92,15 +94,20 @@ def _add_rotor(joint: Joint, settings: JointSettings) -> Joint:
     return joint if after is before else replace(joint, dynamics=after)
 
 
-def find_feet(structure: Structure, ground: Ground | None) -> frozenset[str]:
+def find_feet(
+    structure: Structure, ground: Ground | None, root: Pose, positions: Mapping[str, float]
+) -> frozenset[str]:
     """Find the links that carry a free robot, without its root and its wheels."""
     if ground is None:
         return frozenset()
-    found = set()
+    found, poses = set(), link_poses(structure.robot, positions)
     for body in ground.get_near(CLEARANCE):
         joint = structure.robot.tree.get_parent_joint(body)
-        if joint is not None and joint.type != "continuous":
-            found.add(ground.feet[body])
+        if joint is None or (
+            joint.type == "continuous" and is_wheel(joint, root @ poses[joint.child], ground)
+        ):
+            continue
+        found.add(ground.feet[body])
     return frozenset(found)
 
 

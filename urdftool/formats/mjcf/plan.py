@@ -136,7 +136,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     frames = [*sites, *(one for one in robot.frames if one.kind != "body")]
     sensors = plan_sensors(structure, frames, written, base=options.base_sensors)
     actuators = plan_actuators(structure, options, loads, settings, ground, written)
-    feet = find_feet(structure, ground) if is_for_rl else frozenset()
+    feet = find_feet(structure, ground, home.pose, home.positions) if is_for_rl else frozenset()
     if is_for_rl:
         driven = {actuator.joint for actuator in actuators}
         sensors.sensors += list_joint_sensors(structure, driven)
