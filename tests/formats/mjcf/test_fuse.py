@@ -42,10 +42,14 @@ def test_fixed_links_become_sites(write):
     assert mass == [2, 3]
 
 
+SENSOR = '<gazebo reference="j"><sensor name="eye" type="force_torque"/></gazebo>'
+"""A sensor with the name of a merged link, whose site gets another name."""
+
+
 @pytest.mark.library("mujoco")
-@pytest.mark.parametrize("base", ["fixed", "free"])
-def test_a_merged_model_is_the_same_robot(write, base):
-    found, options = load(write("r.urdf", arm())), Options(fuse=True, base=base)
+@pytest.mark.parametrize(("base", "more"), [("fixed", ()), ("free", ()), ("free", (SENSOR,))])
+def test_a_merged_model_is_the_same_robot(write, base, more):
+    found, options = load(write("r.urdf", arm(*more))), Options(fuse=True, base=base)
     checks = verify_copy(found, options, write_mjcf(found, options))
     rows = {check.name: check for check in checks}
     assert rows["fused"].verdict == "equal", rows["fused"].differing

@@ -55,7 +55,9 @@ def fuse_check(
         for compiled in (plain, fused):
             compiled.set_pose(positions)
         for link in links:
-            expected, found = plain.get_frame(link), _get_frame(fused, link)
+            taken = plain.get_id("SITE", link) >= 0  # by a sensor or frame
+            name = f"{link}_frame" if taken else link
+            expected, found = plain.get_frame(link), _get_frame(fused, link, name)
             off = math.inf
             if expected is not None and found is not None:
                 off = float(abs(found - expected).max())
@@ -119,15 +121,12 @@ def compare_fields(
         check.compare(off, f"camera '{plain.name('CAMERA', number)}'")
 
 
-def _get_frame(compiled: Compiled, link: str) -> Array | None:
-    """Return the pose of a link in the root's frame, of its body or of the site of its name."""
+def _get_frame(compiled: Compiled, link: str, name: str) -> Array | None:
+    """Return the pose of a link in the root's frame, of its body or of a site; None without."""
     if compiled.get_body(link) >= 0:
         return compiled.get_frame(link)
-    for name in (link, f"{link}_frame"):
-        site = compiled.get_id("SITE", name)
-        if site >= 0:
-            return compiled.get_site_frame(site)
-    return None
+    site = compiled.get_id("SITE", name)
+    return compiled.get_site_frame(site) if site >= 0 else None
 
 
 def _get_shapes(compiled: Compiled) -> Array:
