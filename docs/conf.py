@@ -37,7 +37,7 @@ MENU = {
     ),
     "Reference": (
         *("rules/index", "configuration", "formats/commands", "formats/urdf", "formats/sdf"),
-        *("formats/mjcf", "formats/mjcf_runs", "formats/usd"),
+        *("formats/mjcf", "formats/mjcf_runs", "formats/mjcf_vendors", "formats/usd"),
         *("python", "completion"),
     ),
     "Measurements": (

@@ -100,9 +100,12 @@ def describe_actuators(model: Any) -> str:
         kind = "position" if bias[1] else "velocity" if bias[2] else "motor"
         kinds[kind] += 1
         gains.setdefault(kind, []).append(float(model.actuator_gainprm[number][0]))
-    return "; ".join(
-        f"{count} {kind}" + (f", kp {format_range(gains[kind])}" if kind == "position" else "")
-        for kind, count in kinds.items()
+    return (
+        "; ".join(
+            f"{count} {kind}" + (f", kp {format_range(gains[kind])}" if kind == "position" else "")
+            for kind, count in kinds.items()
+        )
+        or "none"
     )
 
 
@@ -218,7 +221,7 @@ def list_rows(theirs: Any, plain: Any, learned: Any) -> Iterator[tuple[str, str,
     one: dict[str, Any] = {
         "size": describe_counts,
         "actuators": describe_actuators,
-        "limits": lambda m: "" if m is theirs else compare_limits(m, theirs),
+        "limits": lambda m: "–" if m is theirs else compare_limits(m, theirs),
         "armature": lambda m: describe_joints(m, m.dof_armature),
         "damping": lambda m: describe_joints(m, m.dof_damping),
         "friction loss": lambda m: describe_joints(m, m.dof_frictionloss),

@@ -52,6 +52,7 @@ class JointLoad:
         force: Torque or force with which it holds the robot against gravity [N·m or N].
         stiffness: Stiffness [N·m/rad] below which a robot above its feet may tip; 0 for none.
         is_carried: Whether the ground carries what the joint moves.
+        free: Inertia that it moves while the other joints are free, carried or not.
         is_singular: Whether the joint and another can turn against each other without moving mass.
     """
 
@@ -60,11 +61,17 @@ class JointLoad:
     force: float = 0.0
     stiffness: float = 0.0
     is_carried: bool = False
+    free: float = 0.0
     is_singular: bool = False
 
     def add_armature(self, armature: float) -> JointLoad:
         """Return the load with a rotor inertia at the joint [kg·m² or kg]."""
-        return replace(self, inertia=self.inertia + armature, reduced=self.reduced + armature)
+        return replace(
+            self,
+            inertia=self.inertia + armature,
+            reduced=self.reduced + armature,
+            free=self.free + armature,
+        )
 
 
 def compute_joint_loads(
@@ -109,12 +116,13 @@ def compute_joint_loads(
         load = _compute_load(
             joint, poses[joint.child], bodies.select(moved), points[held], forces[held]
         )
+        part = min(max(ratios[joint.name], LEAST_REDUCED), 1.0)
+        load = replace(load, free=part * load.inertia)
         if held.any():
             stiffness = _compute_stiffness(joint, poses[joint.child], bodies)
             load = replace(load, stiffness=stiffness, is_carried=True)
         else:
-            part = min(max(ratios[joint.name], LEAST_REDUCED), 1.0)
-            load = replace(load, reduced=part * load.inertia)
+            load = replace(load, reduced=load.free)
         found[joint.name] = replace(load, is_singular=ratios[joint.name] < SINGULAR)
     return found
 

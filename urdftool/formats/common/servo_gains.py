@@ -64,8 +64,8 @@ class Gain:
             nothing is known to derive it from.
         sag: Error [rad or m] with which the servo holds the load at home.
         damping: Damping [N·m·s/rad or N·s/m] of a position servo that is critical while the other
-            joints do not move, for a joint through which the ground carries the robot; None for
-            critical damping while they are free.
+            joints do not move, for a gain above the bound while they are free; None for critical
+            damping while they are free.
     """
 
     value: float
@@ -96,7 +96,8 @@ def choose_position_gain(
     is_bounded = 0 < most < wanted
     value = _round(most) if is_bounded else wanted
     force = None if effort else _round(max(value * FULL[kind], 2 * load.force))
-    damping = _round(2 * math.sqrt(value * load.inertia)) if load.is_carried else None
+    is_stiff = load.is_carried and value > PART * load.free / timestep**2
+    damping = _round(2 * math.sqrt(value * load.inertia)) if is_stiff else None
     return Gain(value, is_bounded, force, load.force / value, damping)
 
 
