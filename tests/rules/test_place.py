@@ -63,6 +63,15 @@ def test_joints_in_one_place(write, spread, count):
     assert all("the frames of 3 links are in one place" in one.message for one in findings)
 
 
+def test_a_mass_in_grams_does_not_hide_another_mass(write):
+    text = (RULES / "mass-outlier" / "bad.urdf").read_text()
+    first = text.index("<mass value=", text.index("<mass value=") + 1)
+    grams = text[:first] + re.sub(r'value="([\d.]+)"', r'value="\g<1>000"', text[first:], count=1)
+    found = check(write("grams.urdf", grams), select=("mass-outlier",))
+    assert "forearm" in [finding.name for finding in found]
+    assert len(found) == 2
+
+
 def test_a_mass_that_its_inertia_goes_with_is_another_material(write):
     text = (RULES / "mass-outlier" / "bad.urdf").read_text()
     assert [f.name for f in check(write("bad.urdf", text), select=("mass-outlier",))] == ["forearm"]

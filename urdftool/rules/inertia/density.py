@@ -18,6 +18,9 @@ DENSITY_RATIO, MAX_DENSITY_RATIO, MOMENT_RATIO, FIT_FACTOR, MIN_LINKS = 3.0, 1.2
 _THINNEST = 0.002
 """Length [m] below which a bounding box counts as flat, without a density."""
 
+GOLD = 19300.0
+"""Density of gold [kg/m³], above which that of a link is impossible."""
+
 
 class _Body(NamedTuple):
     """A link, compared with a solid box of its mass and size."""
@@ -55,20 +58,17 @@ def mass_outlier(
     density that fits the inertia is within a factor ``fit_factor`` of the others; and there are
     more than ``min_links`` links.
     """
-    found = find_outlier(
+    for link, denser, fitting in find_outliers(
         robot, density_ratio, max_density_ratio, moment_ratio, fit_factor, min_links
-    )
-    if found is None:
-        return
-    link = found.link
-    mass = link.inertial.find_child_xml("mass") if link.inertial is not None else None
-    yield Problem(
-        link,
-        f"mass of link '{link.name}' ({link.mass:g} kg) is {found.denser:.2g} times too large by "
-        f"the density of other links, and its inertia fits {found.fitting:.2g} kg; check the mass",
-        data={"mass": link.mass, "fitting": found.fitting},
-        at=mass.locate_attribute("value") if mass is not None else None,
-    )
+    ):
+        mass = link.inertial.find_child_xml("mass") if link.inertial is not None else None
+        yield Problem(
+            link,
+            f"mass of link '{link.name}' ({link.mass:g} kg) is {denser:.2g} times too large by "
+            f"the density of other links, and its inertia fits {fitting:.2g} kg; check the mass",
+            data={"mass": link.mass, "fitting": fitting},
+            at=mass.locate_attribute("value") if mass is not None else None,
+        )
 
 
 class Outlier(NamedTuple):
@@ -81,19 +81,39 @@ class Outlier(NamedTuple):
     """The mass that fits its inertia, at the usual ratio of the other links [kg]."""
 
 
-def find_outlier(
+def find_outliers(
     robot: Robot,
     density_ratio: float = DENSITY_RATIO,
     max_density_ratio: float = MAX_DENSITY_RATIO,
     moment_ratio: float = MOMENT_RATIO,
     fit_factor: float = FIT_FACTOR,
     min_links: float = MIN_LINKS,
-) -> Outlier | None:
-    """Find the one link of a robot whose mass is several times too large.
+) -> Iterator[Outlier]:
+    """Find the densest link of a robot whose mass is several times too large.
+
+    Then links denser than gold are left out, whose masses cannot be compared with, and the next
+    one is judged.
 
     The arguments are those of :func:`mass_outlier`.
     """
     bodies = list(_get_bodies(robot))
+    ratios = (density_ratio, max_density_ratio, moment_ratio, fit_factor, min_links)
+    possible = [one for one in bodies if one.density <= GOLD]
+    for some in (bodies, possible) if len(possible) < len(bodies) else (bodies,):
+        found = _judge_densest(some, *ratios)
+        if found is not None:
+            yield found
+
+
+def _judge_densest(
+    bodies: list[_Body],
+    density_ratio: float,
+    max_density_ratio: float,
+    moment_ratio: float,
+    fit_factor: float,
+    min_links: float,
+) -> Outlier | None:
+    """Return the densest body if its mass alone does not fit the others."""
     if len(bodies) <= min_links:
         return None
     body = max(bodies, key=lambda one: one.density)

@@ -16,6 +16,7 @@ from ..mesh.link_extents import LinkExtents, get_extents
 from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..words import join_some
 from .bodies import compute_mass, find_massless_pairs, find_rigid_bodies
+from .density import GOLD
 from .light_body import find_light_body
 from .solids import compute_volume
 from .tensors import has_written_inertial
@@ -279,7 +280,7 @@ def implausible_density(
     least: float = 5.0,
     most: float = 12000.0,
     least_possible: float = 1.0,
-    most_possible: float = 19300.0,
+    most_possible: float = GOLD,
     small: float = 0.02,
     dummy: float = 1e-3,
     most_of_box: float = 8000.0,

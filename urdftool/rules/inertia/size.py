@@ -29,7 +29,7 @@ from .corrections import (
     write_meant_inertia,
     write_tensor,
 )
-from .density import find_outlier
+from .density import find_outliers
 from .frame import compute_tensor_about_com
 from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
 from .solids import compute_solid_moments, describe_solid, is_dummy
@@ -271,12 +271,12 @@ def inertia_below_geometry(
     the mass of their rigid body change little, and are skipped.
     """
     reach = get_extents(robot)
-    heavy = find_outlier(robot)
+    heavy = {outlier.link.name for outlier in find_outliers(robot)}
     for link, inertial, six in get_tensors(robot):
         mass = link.mass
         if mass <= 0 or is_zero(six, mass) or not is_positive(six):
             continue
-        if heavy is not None and link is heavy.link:
+        if link.name in heavy:
             continue  # mass-outlier reports it
         if mass < part * sum(other.mass for other, _ in find_attached_links(robot, link)):
             continue
