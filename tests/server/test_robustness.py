@@ -92,6 +92,7 @@ def test_questions_are_answered_after_the_checking_process_was_killed(path):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the children of a process in /proc")
+@pytest.mark.slow
 def test_a_checking_process_that_hangs_is_ended(path):
     reports = []
     outline = {"path": str(path)}

@@ -28,6 +28,7 @@ MAX_KEPT = 8 << 20
 MAX_TEXTS = 10_000
 """Number of expressions that are kept; chosen, 123 real expansions have at most 700 each."""
 
+_MAX_STARTS = 5  # of the process, if it ends again and again; chosen
 _PATIENCE = 30.0  # s without an answer; chosen, one takes milliseconds
 _START = (
     "import sys; sys.path[:] = sys.argv[1:]; "
@@ -53,12 +54,20 @@ class ExpansionServer:
         patience: Time [s] without an answer after which an expansion counts as ended.
     """
 
-    def __init__(self, start: Callable[[socket.socket], _Process] | None = None) -> None:
-        """Create the object; the process starts with the first preparation.
+    def __init__(
+        self,
+        start: Callable[[socket.socket], _Process] | None = None,
+        *,
+        at_once: bool = False,
+    ) -> None:
+        """Create the object; the process starts with the first preparation after an expansion.
 
         Args:
             start: Starts the process with its end of a connection; a new interpreter by default.
+            at_once: Whether it starts also before the first expansion.
         """
+        self._is_needed = at_once
+        self._starts = 0
         self.used = self.prepared = 0.0
         self.patience: float | None = None
         self._connection: socket.socket | None = None
@@ -91,6 +100,7 @@ class ExpansionServer:
             texts: Expressions that it compiled.
             trusted: Whether these may use all of Python's syntax.
         """
+        self._is_needed = True
         for file in files:
             key = file.path, file.data
             number = self._kept.pop(key, None)
@@ -115,10 +125,13 @@ class ExpansionServer:
 
     def prepare(self) -> None:
         """Begin to prepare the process of the next expansion, without waiting for it."""
-        if self._waits or not self.is_usable:
+        if self._waits or not self.is_usable or not self._is_needed:
             return
         try:
             if self._process is None:
+                if self._starts == _MAX_STARTS:
+                    return
+                self._starts += 1
                 self._begin()
             self._send_preparation()
         except _FAILURES:
@@ -163,7 +176,7 @@ class ExpansionServer:
             files: The description and the files that it includes, as far as they are known.
             answers: Answers to requests that are known.
         """
-        if not self.is_usable:
+        if not self.is_usable or not self._is_needed:
             return None
         try:
             if self._waits and not self._modules.issuperset(job["modules"]):
