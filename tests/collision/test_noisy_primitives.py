@@ -39,7 +39,8 @@ def test_a_primitive_comes_back(kind, shape, scale, noise):
     assert found_in(*mesh, kind) == pytest.approx(wanted, rel=0.01)
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
 def test_a_sphere_of_uneven_triangles_is_no_capsule(seed):
     points = np.random.default_rng(seed).normal(size=(1200, 3))
     points *= 0.4 / np.linalg.norm(points, axis=1)[:, None]

@@ -19,10 +19,9 @@ from urdftool.geometry.topology import find_edges
     ("kind", "noise"),
     [
         ("box", 0.0),
-        ("cylinder", 0.002),
         *(
             pytest.param(kind, 0.002, marks=pytest.mark.slow)
-            for kind in ("box", "capsule", "sphere")
+            for kind in ("box", "capsule", "cylinder", "sphere")
         ),
     ],
 )

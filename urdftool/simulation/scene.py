@@ -25,7 +25,11 @@ def take_robot(robot: Robot) -> tuple[Robot, list[str]]:
     if tree.root is None or tree.root.name != WORLD:
         return robot, []
     world = tree.root
-    left_out = [f"plane '{c.name}'" for c in world.collisions if isinstance(c.geometry, Plane)]
+    left_out = [
+        f"plane '{c.name}'" if c.name else "a plane"
+        for c in world.collisions
+        if isinstance(c.geometry, Plane)
+    ]
     solid = [c for c in world.collisions if not isinstance(c.geometry, Plane)]
     tops = {joint.child: joint for joint in tree.get_child_joints(WORLD)}
     names = {link.name for link in robot.links}
