@@ -35,3 +35,13 @@ def test_old_addresses_lead_to_the_pages():
     [moved] = [ast.unparse(n.value) for n in tree.body if "MOVED_PAGES = " in ast.unparse(n)[:14]]
     pages = {Path(new).name for new in eval(moved, {}).values()}
     assert pages == {page.stem for page in FOLDER.glob("*.md")} - {"index"}
+
+
+def test_the_page_counts_the_verdicts_of_its_rows():
+    from measure.benchmarks.simulate_robots import ROWS, summarize
+
+    rows = [line.split("\t") for line in ROWS.read_text("utf-8").splitlines()[1:]]
+    page = (FOLDER / "simulate-robots.md").read_text("utf-8")
+    counts, table = summarize(rows).split("\n\n")
+    assert counts in page
+    assert table in page
