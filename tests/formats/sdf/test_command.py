@@ -6,6 +6,7 @@ import os
 import pytest
 
 from tests.conftest import FIXTURES
+from tests.formats.test_standing_pose import quadruped
 
 from .robots import TWO, gazebo, inertial, link
 
@@ -180,6 +181,14 @@ def test_the_start_on_the_ground_is_in_the_world_and_named(urdftool, write, tmp_
     assert "0.2 0 0 0" not in (tmp_path / "out/model.sdf").read_text().partition("<collision")[0]
     done = urdftool("export", "sdf", path, "-o", "alone", "-v")
     assert "spawn it there (-z 0.2)" in done.err
+    assert "initial joint positions" not in done.err
+
+
+def test_a_home_that_sdf_does_not_hold_is_named(urdftool, write):
+    done = urdftool("export", "sdf", write("q.urdf", quadruped()), "-o", "out", "-v")
+    assert done.code == 0, done.err
+    assert "SDF has no initial joint positions" in done.err
+    assert "and 5 more" in done.err  # hip and knee of four legs
 
 
 @pytest.mark.library("mujoco")

@@ -13,9 +13,11 @@ from ...model.settings import is_set
 from ...model.start import start_positions
 from ...model.world import WORLD, find_model_origin
 from ..common.floor import lift_to_floor
+from ..common.home_positions import choose_home_positions
 from ..common.numbers import number_text
-from ..common.rigid_tree import group_rigid_links
+from ..common.rigid_tree import RigidTree, group_rigid_links
 from ..common.shape_box import ShapeBoxes
+from ..common.standing_pose import choose_standing_positions
 from ..written import Written
 from .options import Options
 from .xml import Node
@@ -40,20 +42,41 @@ def report_start(robot: Robot, options: Options, written: Written) -> float:
     if len(roots) != 1 or roots[0].name == WORLD or find_model_origin(robot) is not None:
         return 0.0
     tree = group_rigid_links(robot, lambda joint: not joint.is_fixed)
-    height = lift_to_floor(tree, ShapeBoxes(robot), positions, IDENTITY).translation[2]
+    boxes = ShapeBoxes(robot)
+    height = lift_to_floor(tree, boxes, positions, IDENTITY).translation[2]
     if height:
+        home = _list_home(tree, boxes, positions)
         done = "world.sdf places it there" if options.world else f"spawn it there (-z {height:g})"
         written.report_loss(
             "start",
             f"the lowest point of the robot is at the ground if its root is at z = {height:g} m; "
-            f"{done}",
+            f"{done}{_describe_home(home)}",
             roots[0].place,
             kind="link",
             name=roots[0].name,
             severity=Severity.INFO,
-            data={"height": height},
+            data={"height": height, "home": home},
         )
     return height
+
+
+def _list_home(tree: RigidTree, boxes: ShapeBoxes, start: Mapping[str, float]) -> dict[str, float]:
+    """List the joints that ``export mjcf`` starts elsewhere, with their positions [rad, m]."""
+    home = choose_home_positions(tree.robot, {}, "", None, Written(""))
+    positions = choose_standing_positions(tree, boxes, home, Written(""))
+    return {name: value for name, value in positions.items() if value != start.get(name, 0.0)}
+
+
+def _describe_home(home: Mapping[str, float]) -> str:
+    """Describe the joint positions that an SDF does not hold; empty if there are none."""
+    if not home:
+        return ""
+    listed = ", ".join(f"'{name}' {value:.3g}" for name, value in list(home.items())[:3])
+    more = f" and {len(home) - 3} more" if len(home) > 3 else ""
+    return (
+        "; SDF has no initial joint positions, so joints start at zero or the limit nearest to it, "
+        f"not at the home of export mjcf: {listed}{more}"
+    )
 
 
 def place_on_ground(model: Node, height: float) -> None:
