@@ -16,6 +16,13 @@ FILES = [
 ]
 
 
+@mujoco
+def test_a_keyframe_of_several_trees_is_that_of_the_robot(tmp_path):
+    source = FIXTURES / "formats" / "mjcf" / "platform.xml"
+    written = api.export_urdf(api.load(source), tmp_path / "out.urdf", verify=True)
+    assert [check.name for check in written.checks if check.verdict == "differs"] == []
+
+
 @pytest.mark.parametrize(("name", "text"), FILES)
 def test_the_result_equals_its_source(urdftool, write, name, text, tmp_path):
     result = urdftool(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ..mechanics.reference import Array
 from ..model.elements import Link, Robot
@@ -138,6 +138,7 @@ def add_presence(
     other: Part | None = None,
     counterpart: str = "",
     owners: tuple[str, ...] = (),
+    is_convention: bool = False,
 ) -> None:
     """Record a part that only one robot has.
 
@@ -153,14 +154,14 @@ def add_presence(
         other: The part of the other robot that should have it.
         counterpart: Name of that part, if it exists.
         owners: Links or joints of the part.
+        is_convention: Whether it makes no difference.
     """
     here, there = locate(part, None), locate(other, None)
     names = (name, counterpart) if side == 0 else (counterpart, name)
     values = (value, None) if side == 0 else (None, value)
     places = (here, there) if side == 0 else (there, here)
-    comparison.add(
-        Difference(row, kind, names, what, values, "", float("inf"), places, owners=owners)
-    )
+    difference = Difference(row, kind, names, what, values, "", float("inf"), places, owners=owners)
+    comparison.add(replace(difference, is_convention=is_convention))
 
 
 def get_members(bodies: Bodies, body: Body) -> list[tuple[Link, Array]]:

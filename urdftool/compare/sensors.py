@@ -72,14 +72,18 @@ def compare_sensors(pair: Pair, comparison: Comparison) -> None:
             sensors = (s for s in sensors if not _is_hardware(s))
         sides.append(list(sensors))
     comparison.record_parts(_ROW, *sides)
-    for one, two in _match(pair, *sides):
+    matched = _match(pair, *sides)
+    for one, two in matched:
         _compare(pair, one, two, comparison, plain=with_mjcf != 1)
+    known = {id(two.part) for _, two in matched}
     for side, left in enumerate(sides):
         for sensor in left:
             owner = _get_owner(sensor.part)
             add_presence(
                 comparison, _ROW, _get_noun(sensor), EXISTENCE, side, sensor.part, sensor.name,
                 sensor.type, owners=(owner,),
+                # it measures what the sensors of the first robot do, and more
+                is_convention=side == 1 and id(sensor.part) in known,
             )  # fmt: skip
 
 

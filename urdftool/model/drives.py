@@ -11,8 +11,10 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from .elements import Joint, Plugin, Robot
+from .elements import ControlComponent, Joint, Plugin, Robot
 from .kinematics import MOVABLE, get_limits
+from .mechanism import JointActuator
+from .numbers import number
 from .part import Part
 
 PLUGINS = (
@@ -102,6 +104,8 @@ class Drive(Part):
         stiffness: Force for each unit of position [N·m/rad or N/m]; None if not written.
         damping: Force for each unit of velocity [N·m·s/rad or N·s/m]; None if not written.
         force: Largest force at the joint [N·m or N]; None if not limited.
+        commands: Least and largest command at the joint [rad, m, rad/s, m/s, N·m or N]; None if not
+            written.
         source: ``plugin``, ``transmission``, ``ros2_control`` or ``actuator``.
         owner: Name of the block or actuator.
     """
@@ -112,6 +116,7 @@ class Drive(Part):
     stiffness: float | None = None
     damping: float | None = None
     force: float | None = None
+    commands: tuple[float, float] | None = None
     source: str = "actuator"
     owner: str = ""
 
@@ -133,12 +138,27 @@ def list_drives(robot: Robot) -> Iterator[Drive]:
                 yield Drive(part.provenance, joint.name, mode, gear, source=source, owner=part.name)
     for block in robot.ros2_controls:
         for component in block.joints:
-            names = [interface.name for interface in component.command_interfaces]
-            if names and component.name in robot.joint:
-                mode, source = get_actuator_kind(names), "ros2_control"
-                yield Drive(
-                    component.provenance, component.name, mode, source=source, owner=block.name
-                )
+            if component.command_interfaces and component.name in robot.joint:
+                yield _read_component(component, block.name)
+
+
+def _read_component(component: ControlComponent, owner: str) -> Drive:
+    """Return the drive of a joint of ros2_control, with gains and range of its interface."""
+    mode = get_actuator_kind([interface.name for interface in component.command_interfaces])
+    name = "effort" if mode == "motor" else mode
+    interface = next((one for one in component.command_interfaces if one.name == name), None)
+    values = {} if interface is None else {k: number(v) for k, v in interface.params.items()}
+    low, high = values.get("min"), values.get("max")
+    return Drive(
+        component.provenance,
+        component.name,
+        mode,
+        stiffness=values.get("kp") if mode == "position" else None,
+        damping=values.get("kv") if mode != "motor" else None,
+        commands=None if low is None or high is None else (low, high),
+        source="ros2_control",
+        owner=owner,
+    )
 
 
 def _list_actuators(robot: Robot) -> Iterator[Drive]:
@@ -159,8 +179,21 @@ def _list_actuators(robot: Robot) -> Iterator[Drive]:
             -position * squared if part.mode in ("position", "general") else None,
             -velocity * squared if part.mode != "motor" else None,
             force if force is None or math.isfinite(force) else None,
+            _compute_commands(part),
             owner=part.name,
         )
+
+
+def _compute_commands(part: JointActuator) -> tuple[float, float] | None:
+    """Return the range of the commands at the joint; of a motor, those that its force allows."""
+    if part.control_range is None:
+        return None
+    ends = [control / part.gear if part.gear else math.inf for control in part.control_range]
+    if part.mode == "motor":
+        low, high = part.force_range or (-math.inf, math.inf)
+        forces = (min(max(part.gain * control, low), high) for control in part.control_range)
+        ends = [part.gear * force for force in forces]
+    return min(ends), max(ends)
 
 
 def is_driven_alone(joint: Joint) -> bool:

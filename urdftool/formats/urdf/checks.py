@@ -15,7 +15,7 @@ from ..common.losses import DeclaredLosses
 from ..written import Written
 from .options import Options
 from .read import read
-from .verify_extensions import check_extensions
+from .verify_srdf import check_srdf
 
 NOT_COMPARED = ("contact bits", "textures", "world settings", "closed loops")
 """Parts of a description that no check compares."""
@@ -26,11 +26,19 @@ _EXCUSES = (
     Excuse(("surface",), frozenset(("lossy-surface",))),
     Excuse(("looks",), frozenset(("lossy-appearance",))),
     Excuse(("joint physics",), frozenset(("lossy-spring",))),
+    Excuse(("sensors",), frozenset(("lossy-sensor",))),
+    Excuse(("sensors",), frozenset(("lossy-optical-frame",)), properties=("frame",)),
+    Excuse(("actuators",), frozenset(("lossy-actuator",))),
 )
 """Rows whose differences a loss explains."""
 
-_EXTENSIONS = {"urdf": ("simulator data",)}
-"""Rows of extensions by the format of the source; ``verify_extensions.py`` compares the others."""
+_EXTENSIONS = {
+    "urdf": ("simulator data",),
+    "sdf": ("sensors",),
+    "mjcf": ("sensors", "actuators"),
+    "usd": ("actuators",),
+}
+"""Rows of extensions by the format of the source."""
 
 
 def check_unwritten(
@@ -82,5 +90,5 @@ def _compare(robot: Robot, written: Written, path: Path) -> list[Check]:
     checks = prove(_drop_rotors(robot, written), reading.robot, claims, rows=rows)
     if robot.xml is None:  # the extensions of a URDF source are copied
         declared = DeclaredLosses.from_findings(written.losses)
-        checks += check_extensions(robot, reading.robot, path, written.renamed, declared)
+        checks.append(check_srdf(robot, reading.robot, path, written.renamed, declared))
     return checks

@@ -86,6 +86,11 @@ def add_cameras(t: Translation) -> None:
             inner.remove(pose)
         if frame and inner.find("optical_frame_id") is None:
             add(inner, "optical_frame_id", frame)
+            text = f"camera '{camera.name}' gets the optical frame '{frame}', which ROS expects"
+            t.written.report_loss(
+                "optical-frame", text, camera.place,
+                kind="camera", name=camera.name, severity=Severity.INFO,
+            )  # fmt: skip
 
 
 def _add_optical_frame(t: Translation, camera: Camera, name: str) -> str:
