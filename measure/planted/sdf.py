@@ -57,7 +57,7 @@ CHANGES = (
     Planted("leader of mimic", "tree", put("//mimic", "joint", "elbow")),
     Planted(
         "joint added",
-        "other elements",
+        "loops",
         add(
             MODEL,
             "<joint name='more' type='revolute'><parent>caster</parent><child>forearm</child>"
