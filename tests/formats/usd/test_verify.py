@@ -185,3 +185,13 @@ def test_without_mujoco_the_stage_is_not_stepped(write, monkeypatch):
 
 def rows_by_name(path, written):
     return {check.name: check for check in our_rows(path, written)}
+
+
+@pytest.mark.library("mujoco")
+def test_what_only_a_mjcf_has_is_reported_and_no_row(urdftool, write):
+    body = '<joint name="j"/><geom size=".1"/><site name="s" group="4"/><camera mode="track"/>'
+    text = f'<mujoco><worldbody><body name="a">{body}</body></worldbody></mujoco>'
+    done = urdftool("export", "usd", write("r.xml", text), "-o", "r.usda", "--verify")
+    assert done.code == 0
+    assert "other elements" not in done.out
+    assert "camera" in done.err

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 from ...compare.check import Check
 from ...compare.proof import Claims, prove
-from ...compare.rows import ROWS, Row
+from ...compare.rows import NATIVE, ROWS, Row
 from ...extras import is_installed
 from ...model.elements import Joint, Robot
 from ...model.load import read_again
@@ -30,7 +30,7 @@ from .verify_home import compare_home, read_start
 _SINGLE = 1e-6
 """Tolerance of most rows: a stage has 32-bit floats."""
 
-_NOT_READ = ("world", "looks", "sensors", "configurations", "plugins", "simulator data")
+_NOT_READ = ("world", "looks", "sensors", "configurations", "plugins", "simulator data", NATIVE)
 """Rows of what a stage does not have, or its reader does not read."""
 
 _PLACES = ("frames", "axes", "collisions", "visuals", "colors", "mass matrix", "gravity")
