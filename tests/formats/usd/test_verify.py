@@ -191,7 +191,7 @@ def rows_by_name(path, written):
 def test_what_only_a_mjcf_has_is_reported_and_no_row(urdftool, write):
     body = '<joint name="j"/><geom size=".1"/><site name="s" group="4"/><camera mode="track"/>'
     text = f'<mujoco><worldbody><body name="a">{body}</body></worldbody></mujoco>'
-    done = urdftool("export", "usd", write("r.xml", text), "-o", "r.usda", "--verify")
+    done = urdftool("-v", "export", "usd", write("r.xml", text), "-o", "r.usda", "--verify")
     assert done.code == 0
     assert "other elements" not in done.out
     assert "camera" in done.err
