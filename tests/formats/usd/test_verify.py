@@ -195,3 +195,18 @@ def test_what_only_a_mjcf_has_is_reported_and_no_row(urdftool, write):
     assert done.code == 0
     assert "other elements" not in done.out
     assert "camera" in done.err
+
+
+@pytest.mark.parametrize(("pose", "code"), [("0 0 0", 0), ("0 0 1", 1)])
+def test_equal_meshes_of_two_files_at_one_place_are_drawn_once(urdftool, write, pose, code):
+    """A stage has one file of equal meshes; a mesh at another place is missed."""
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+    for name in ("a.obj", "b.obj"):
+        write(name, text)
+    mesh = '<visual>{}<geometry><mesh filename="{}"/></geometry></visual>'
+    first = mesh.format("", "a.obj")
+    source = write("r.urdf", robot(link("base", 2, first + mesh.format("", "b.obj"))))
+    assert urdftool("export", "usd", source, "-o", "r.usda").code == 0
+    second = mesh.format(f'<origin xyz="{pose}"/>', "b.obj")
+    moved = write("m.urdf", robot(link("base", 2, first + second)))
+    assert urdftool("verify", moved, "r.usda").code == code
