@@ -107,6 +107,7 @@ def test_the_memory_of_openusd_is_limited(tmp_path):
     assert run("info", bombs.write_instancer(tmp_path))[0] == 0  # its arrays are not read
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", bombs.SLOW_MJCF)
 def test_the_processor_time_of_mujoco_is_limited(tmp_path, monkeypatch, name):
     monkeypatch.setattr(read_mjcf, "LIMITS", read_mjcf.LIMITS._replace(processor=1.0))
@@ -115,6 +116,7 @@ def test_the_processor_time_of_mujoco_is_limited(tmp_path, monkeypatch, name):
         read(path)
 
 
+@pytest.mark.slow
 def test_the_processor_time_of_openusd_is_limited(tmp_path, monkeypatch):
     monkeypatch.setattr(read_usd, "LIMITS", read_usd.LIMITS._replace(processor=1.0))
     with pytest.raises(ModelError, match="1 s of processor time"):
