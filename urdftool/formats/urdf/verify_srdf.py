@@ -1,4 +1,4 @@
-"""Check of the SRDF beside an export to URDF against its source, after reading it back."""
+"""Check of the SRDF next to an export to URDF against its source, after reading it back."""
 
 from __future__ import annotations
 
