@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from tests.build import arm
+from urdftool.compare.compare import compare_robots
 from urdftool.compare.differences import compare
 from urdftool.model.elements import Dynamics, Origin
 from urdftool.model.mechanism import Closure, Configuration, ContactExclusion, Frame, JointActuator
@@ -56,3 +57,13 @@ def test_armature_and_springs():
     b.joints[0].settings = {"spring_stiffness": Value(None, 2.0)}
     b.links[0].settings = {"gravity": Value(None, True), "wind": Value(None, True)}
     assert [c.what for c in compare(a, b)] == ["dynamics armature", "wind", "spring stiffness"]
+
+
+def test_a_loop_of_another_name_is_renamed():
+    other = {"closures": [replace(LOOP, name="loop_1")]}
+    assert changed({"closures": [LOOP]}, other) == [("closed loop", "loop_1", "renamed")]
+    robots = (replace(arm(2, **parts), format="sdf") for parts in ({"closures": [LOOP]}, other))
+    assert compare_robots(*robots).differences == []
+    moved = {"closures": [replace(LOOP, name="loop_1", child="link1")]}
+    found = changed({"closures": [LOOP]}, moved)
+    assert {what for _, _, what in found} == {"added", "removed"}

@@ -67,7 +67,7 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
         comparison.skipped[_BLOCKS] = _WHY[_BLOCKS]
     _record_parts(pair, comparison)
     for change in _list_changes(pair):
-        if change.kind in _ROW_OF:
+        if change.kind in _ROW_OF and change.what != "renamed":
             comparison.add(_make_difference(_ROW_OF[change.kind], change))
     if shared:
         _compare_native(pair, comparison)
@@ -83,7 +83,7 @@ def _compare_loops(pair: Pair, comparison: Comparison) -> None:
     robots = put_loops_into_bodies(pair)
     comparison.record_parts(_LOOPS, *(robot.closures for robot in robots))
     for change in compare_mechanisms(*robots, _TOLERANCE, _get_names(pair)):
-        if change.kind == "closed loop":
+        if change.kind == "closed loop" and change.what != "renamed":
             comparison.add(_make_difference(_LOOPS, replace(change, owner="")))
 
 

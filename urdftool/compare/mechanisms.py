@@ -34,6 +34,9 @@ def compare_mechanisms(
         if in_blocks and kind in _IN_BLOCKS:
             continue
         one, two = _index_by_name(before, renamed), _index_by_name(after, {})
+        for old_name, name in [*_find_renamed(one, two)] if kind == _LOOP else ():
+            yield Change(kind, name, "renamed", old_name, name, place=two[name][0].place)
+            one[name] = one.pop(old_name)
         for name in dict.fromkeys((*one, *two)):
             old, new = one.get(name), two.get(name)
             if old is None or new is None:
@@ -49,12 +52,14 @@ def compare_mechanisms(
                     )
 
 
+_LOOP = "closed loop"
+
 _KINDS = (
-    *("closed loop", "frame", "joint actuator", "contact exclusion", "configuration", "camera"),
+    *(_LOOP, "frame", "joint actuator", "contact exclusion", "configuration", "camera"),
     *("mounted sensor", "light", "plugin"),
 )
 
-_IN_BLOCKS = ("closed loop", "camera", "mounted sensor", "light", "plugin")
+_IN_BLOCKS = (_LOOP, "camera", "mounted sensor", "light", "plugin")
 
 
 def list_parts_by_kind(robot: Robot) -> list[tuple[str, Sequence[Part]]]:
@@ -89,6 +94,23 @@ def _index_by_name(
         name = getattr(part, "name", "") or _name_by_references(values, number)
         found.setdefault(name, (part, values))
     return found
+
+
+def _find_renamed(
+    one: Mapping[str, tuple[Part, dict[str, Any]]], two: Mapping[str, tuple[Part, dict[str, Any]]]
+) -> Iterator[tuple[str, str]]:
+    """Yield both names of the loops that only have other names: they connect the same links."""
+    left = [name for name in two if name not in one]
+    for old in [name for name in one if name not in two]:
+        ends = _list_ends(one[old][1])
+        new = next((name for name in left if _list_ends(two[name][1]) == ends), None)
+        if new is not None:
+            left.remove(new)
+            yield old, new
+
+
+def _list_ends(values: Mapping[str, Any]) -> tuple[str, ...]:
+    return tuple(str(values[key]) for key in _REFERENCES if key in values)
 
 
 def _name_by_references(values: Mapping[str, Any], number: int) -> str:
