@@ -148,3 +148,12 @@ def test_a_rejected_setting_is_reported_once(urdftool, write):
     lines = urdftool("export", "sdf", path, "-o", "out", "--force").err.splitlines()
     assert sum("'abc'" in line for line in lines) == 1
     assert sum("'x'" in line for line in lines) == 1
+
+
+@pytest.mark.parametrize("tag", ["link", "frame", "model"])
+def test_a_name_that_is_taken_is_written_once(tag):
+    block = f'<gazebo><{tag} name="b"/></gazebo>'
+    written = export(link("a", inertial()), joint("j", "a", "b"), link("b", inertial()), block)
+    model = tree(written)
+    assert [child.tag for child in model if child.get("name") == "b"] == ["link"]
+    assert "lossy-reference" in rules(written)

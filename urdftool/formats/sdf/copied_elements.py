@@ -59,6 +59,11 @@ def copy_raw_element(
         )
         t.report_loss("extension", f"{text}; it is not exported", element, about)
         return None
+    if about is None and element.tag in OWN_FRAMES - {"joint"} and _is_taken(node, element):
+        name = element.get("name")
+        text = f"<{element.tag}> '{name}' of a <gazebo> block is not exported: the name is taken"
+        t.report_loss("reference", text, element)
+        return None
     made = append_copy(node, element)
     remove_invalid(made, t, element, about)
     if element.tag in ("light", "projector"):
@@ -66,6 +71,12 @@ def copy_raw_element(
     if isinstance(about, Link) and element.tag in PLACED:
         move_to_owner(made, t, about)
     return made
+
+
+def _is_taken(model: Node, element: Element) -> bool:
+    """Tell whether a link, joint, frame or model of a model has the name of an element."""
+    name = element.get("name")
+    return any(other.get("name") == name for other in model if other.tag in OWN_FRAMES)
 
 
 def _name_once(node: Node, made: Node) -> None:
