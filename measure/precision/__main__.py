@@ -63,7 +63,11 @@ findings among them were of a kind that was changed afterwards. One reader; numb
 contacts with coal, and loading with PyBullet and pinocchio, where the reason names it. The reader
 of seed 4711 called some findings useful that are of kinds which the reader of 4721 found wrong
 (`joint-not-mirrored` of iCub, visuals in glTF files that were turned); they stand as they were
-judged.
+judged. Seeds 52711 and 52712 ("independent") were drawn of 76 robots of nine packages of PyPI that
+no earlier sample has, and were judged by a reader who had changed no rule, and who recomputed
+numbers, compared contacts with coal and FCL, and ran MuJoCo and PyBullet, where the reason names
+it. A line with `"error": false` is an error that deserved a lower severity. The kinds of findings
+that were wrong there were changed afterwards, so these counts are of the rules before.
 """
 RULES = """\
 ## Rules with findings that were wrong
