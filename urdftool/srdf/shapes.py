@@ -103,6 +103,15 @@ def read_shapes(
     return LinkShape(link, tuple(found), tuple(solids))
 
 
+def read_solids(robot: Robot, link: str) -> list[Solid]:
+    """Read the collisions of a link as FCL tests them for contact.
+
+    Raises:
+        UrdftoolError: A mesh cannot be read, or a shape is not bounded.
+    """
+    return [_read_shape(robot, shape)[0] for shape in robot.link[link].collisions]
+
+
 def _read_shape(robot: Robot, shape: Collision | Visual) -> tuple[Solid, Points]:
     """Return a shape, and the triangles or points [m] of its own frame that contain it."""
     pose = make_pose(shape.origin)

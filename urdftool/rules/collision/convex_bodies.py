@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from ...geometry.penetration import Convex, compute_overlap, make_convex
 from ...model.elements import Joint, Link, Mesh, Robot, Vector
@@ -74,9 +74,23 @@ class ConvexBodies:
                 yield _compute_hull(found.points, use.mesh.scale, pose)
 
     def find_deepest_overlap(
-        self, one: str, other: str, moved: Pose = IDENTITY, least: float = 0.001
+        self,
+        one: str,
+        other: str,
+        moved: Pose = IDENTITY,
+        least: float = 0.001,
+        counts: Callable[[Link, Link], bool] | None = None,
     ) -> tuple[Link, Link, float] | None:
-        """Find the links of two bodies that overlap most, with the first body moved; or None."""
+        """Find the links of two bodies that overlap most, with the first body moved; or None.
+
+        Args:
+            one: A body.
+            other: Another body.
+            moved: Displacement of the first body.
+            least: Overlap that is tolerated [m].
+            counts: Whether an overlap of the convex pieces of two links counts; not asked for
+                primitives.
+        """
         found: tuple[Link, Link, float] | None = None
         for link, piece in self.bodies.get(one, ()):
             at = moved.transform(piece.pose.translation)
@@ -93,7 +107,9 @@ class ConvexBodies:
                 if found is not None:
                     enough = max(enough, found[2])
                 depth = compute_overlap(placed, fixed, enough)
-                if depth > enough:
+                if depth > enough and (
+                    counts is None or (placed.filled and fixed.filled) or counts(link, against)
+                ):
                     found = link, against, depth
         return found
 

@@ -16,6 +16,7 @@ from ..mujoco import reads_collisions
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
 from ..words import join_some
 from .convex_bodies import ConvexBodies, get_convex_bodies
+from .exact_contact import find_contact
 
 APPLIES_TO = ("collision",)
 
@@ -65,8 +66,8 @@ def self_collision_at_zero(
     """
     loaded = ("mujoco (loaded)",) if reads_collisions(robot) else ()
     found = list(find_resting_overlaps(robot, deeper))
-    hulls = [pair for pair in found if any(map(_has_mesh, pair[:2]))]
-    exact = [pair for pair in found if not any(map(_has_mesh, pair[:2]))]
+    hulls = [pair for pair in found if any(map(has_mesh, pair[:2]))]
+    exact = [pair for pair in found if not any(map(has_mesh, pair[:2]))]
     for pairs, what, keys in (
         (exact, "links", ("moveit", *loaded)),
         (hulls if loaded else [], "the convex hulls of links", loaded),
@@ -76,8 +77,8 @@ def self_collision_at_zero(
         if inside:
             yield _report_overlap(inside, keys, what, WARNING)
         rest = [pair for pair in pairs if pair not in inside]
-        if rest:
-            yield _report_overlap(rest, keys, what)
+        if rest:  # of MoveIt the hulls say nothing
+            yield _report_overlap(rest, keys, what, INFO if pairs is hulls else None)
 
 
 def _is_inside(robot: Robot, one: Link, other: Link, core: float = 0.5) -> bool:
@@ -103,7 +104,8 @@ def _is_inside(robot: Robot, one: Link, other: Link, core: float = 0.5) -> bool:
     )
 
 
-def _has_mesh(link: Link) -> bool:
+def has_mesh(link: Link) -> bool:
+    """Tell whether a collision of a link is a mesh."""
     return any(isinstance(collision.geometry, Mesh) for collision in link.collisions)
 
 
@@ -173,8 +175,9 @@ def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Prob
     """Links that overlap at rest have self-collision enabled.
 
     With ``<self_collide>true</self_collide>`` Gazebo creates contacts between the links of a robot.
-    Two links that overlap at spawn are pushed apart, and the robot moves or diverges. More than
-    ``together`` pairs are one finding.
+    Two links that overlap at spawn are pushed apart, and the robot moves or diverges. Gazebo
+    compares the triangles of meshes, so links are not reported whose convex hulls overlap while
+    their surfaces are apart. More than ``together`` pairs are one finding.
     """
     whole = is_set(robot.settings, "self_collide")
     enabled = {link.name for link in robot.links if is_set(link.settings, "self_collide", whole)}
@@ -182,16 +185,22 @@ def self_collide_at_spawn(robot: Robot, *, together: float = 4) -> Iterator[Prob
         (one, other, depth)
         for one, other, depth in find_resting_overlaps(robot)
         if one.name in enabled and other.name in enabled
+        if not (has_mesh(one) or has_mesh(other)) or find_contact(robot, one, other)
     ]
     many = len(found) > together
     more = f"; so do {_format_pairs(found[1:])}" if many else ""
     for one, other, depth in found[:1] if many else found:
         yield Problem(
             other,
-            f"links '{one.name}' and '{other.name}' overlap by {depth * 1000:.3g} mm at spawn and "
-            f"have self_collide enabled, so Gazebo creates contacts{more}",
+            f"links '{one.name}' and '{other.name}' overlap{_format_depth(one, other, depth)} at "
+            f"spawn and have self_collide enabled, so Gazebo creates contacts{more}",
             at=other.collisions[0],
         )
+
+
+def _format_depth(one: Link, other: Link, depth: float) -> str:
+    """Format the depth of an overlap [m]; empty if it is that of convex hulls of meshes."""
+    return "" if has_mesh(one) or has_mesh(other) else f" by {depth * 1000:.3g} mm"
 
 
 @rule(

@@ -19,7 +19,7 @@ from ..fix import (
 )
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
-from ..words import find_nearest, suggest_name
+from ..words import find_nearest_joint, suggest_joint
 
 APPLIES_TO = ("ros2_control",)
 
@@ -44,11 +44,11 @@ def ros2_control_unknown_joint(robot: Robot) -> Iterator[Problem]:
                 yield Problem(
                     control.element,
                     f"joint '{joint.name}' of ros2_control '{control.name}' does not exist in "
-                    "the robot" + suggest_name(joint.name, robot.joint),
+                    "the robot" + suggest_joint(robot, joint.name),
                     at=joint.locate_attribute("name"),
                     data={
                         "joint": joint.name,
-                        "suggestion": find_nearest(joint.name, robot.joint),
+                        "suggestion": find_nearest_joint(robot, joint.name),
                     },
                 )
 

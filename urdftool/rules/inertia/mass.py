@@ -52,10 +52,11 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     is less than that of air of the link's size is not that of the body: a trunk of mass 0 with a
     sensor of 1 g.
 
-    A root of mass 0 makes a model static in PyBullet; Gazebo rejects it. For a robot with moving
-    joints it is an info. If the mass is 0 and the inertia is not, Gazebo and pinocchio add the
-    inertia to the body, and Drake gives the link 1 kg. Two links of mass 0 that are fixed to each
-    other break Gazebo's reader, which divides by the sum of their masses.
+    A root of mass 0 makes a model static in PyBullet, which may be intended, as for the frame of a
+    door; Gazebo rejects it. For a robot with moving joints it is an info. If the mass is 0 and the
+    inertia is not, Gazebo and pinocchio add the inertia to the body, and Drake gives the link 1 kg.
+    Two links of mass 0 that are fixed to each other break Gazebo's reader, which divides by the sum
+    of their masses.
     """
     zero = [link for link in robot.links if link.inertial and link.inertial.mass == 0.0]
     if not zero:
@@ -118,9 +119,10 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
         else:
             continue
         keys = {"gz, gazebo-classic", *(("mujoco",) if moved else ())}
+        remedy = "Keep it if PyBullet is to fix it; else write" if case == "root" else "Write"
         yield Problem(
             link,
-            f"mass of link '{link.name}' is 0; {so}. Write its mass",
+            f"mass of link '{link.name}' is 0; {so}. {remedy} its mass",
             at=at,
             severity=severity,
             effects=_AS_ROOT if joint is None else keys,

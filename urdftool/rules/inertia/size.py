@@ -17,6 +17,7 @@ from ...mechanics.tensor import SymmetricTensor, compute_principal_moments, rota
 from ...model.attached import find_attached_links
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...model.pose import make_pose
+from ...source.document import Element
 from ..fix import FixContext, Proposal
 from ..mesh.link_extents import get_extents
 from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
@@ -33,7 +34,7 @@ from .density import find_outliers
 from .frame import compute_tensor_about_com
 from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
 from .solids import compute_solid_moments, describe_solid, is_dummy
-from .tensors import get_tensors, is_accepted, is_positive, is_zero
+from .tensors import SIX, get_tensors, is_accepted, is_positive, is_zero
 
 SIZE_IN_DOUBT = ("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier")
 _SINGULAR = 1e-9
@@ -59,7 +60,8 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
     arm accelerates like a flywheel and its motors seem too weak. Frames often have a placeholder to
     keep a simulation stable, so these are reported only if the value is too large: links of a few
     millimeters, links without geometry, and links of up to ``tiny`` [m] that are fixed to a
-    heavier link.
+    heavier link. Where all tensors of the robot are rounded to the same number of decimals, as CAD
+    programs do, 0.0001 may be the rounded moment of a small link and is not reported.
     """
     slight = find_slight_parts(robot)
     whole: dict[str, list[Link]] | None = None
@@ -67,6 +69,8 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
         if not is_placeholder(link, six) or link.mass < 0 or link.name in slight:
             continue  # negative-mass reports the mass
         moment = six[0]
+        if is_last_decimal(robot, moment) and _may_round(robot, link, moment):
+            continue
         radius = math.sqrt(moment / inertial.mass) if inertial.mass and inertial.mass > 0 else 0.0
         large = moment == 1.0 or radius > 1.0
         dummy = is_dummy(link)
@@ -89,6 +93,49 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
             "axis): {names}",
             data={"moment": moment, "is_large": large},
         )
+
+
+def is_last_decimal(robot: Robot, moment: float) -> bool:
+    """Tell whether a moment [kg·m²] is one unit of the last decimal of all tensors of a robot.
+
+    At least three other tensors must use that decimal, which several links with one placeholder
+    do not.
+    """
+    units: set[int] = set()
+    using = 0
+    for _, inertial, six in get_tensors(robot):
+        decimals = _count_decimals(inertial.inertia.xml if inertial.inertia else None)
+        if decimals is None:
+            return False
+        units.add(decimals)
+        using += math.isclose(moment, 10.0**-decimals) and len({*six[::3], six[5]}) > 1
+    return using >= _USING and math.isclose(moment, 10.0 ** -max(units))
+
+
+_USING = 3
+"""Other tensors that must be rounded to the same decimal. Chosen, no source."""
+_ROUNDED = 10.0
+"""Factor between a moment of the link's box and one unit of the last decimal. Chosen, no source."""
+
+
+def _count_decimals(tensor: Element | None) -> int | None:
+    """Count the decimals of the components of a tensor; None with an exponent or without text."""
+    if tensor is None:
+        return None
+    texts = [text for name in SIX if (text := tensor.get(name)) is not None]
+    if any(set(text.strip()) - set("+-.0123456789") for text in texts):
+        return None
+    return max((len(text.strip().partition(".")[2]) for text in texts), default=0)
+
+
+def _may_round(robot: Robot, link: Link, moment: float) -> bool:
+    """Tell whether a moment may be that of the link's box, if known, rounded to one unit."""
+    box = get_extents(robot).get_link_box(link)
+    if box is None:
+        return True
+    a, b, c = box.size
+    largest = link.mass / 12 * (a * a + b * b + c * c)
+    return moment / _ROUNDED <= largest <= moment * _ROUNDED
 
 
 def _is_frame(robot: Robot, link: Link, body: list[Link], tiny: float) -> bool:

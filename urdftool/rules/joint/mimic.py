@@ -19,7 +19,7 @@ from ..rule import (
     select_holding,
 )
 from ..unexpanded import is_unexpanded
-from ..words import find_nearest, suggest_name
+from ..words import find_nearest_joint, suggest_joint
 from ..xml.vocabulary_table import find_misspelled_attributes
 
 APPLIES_TO = ("mimic",)
@@ -85,13 +85,13 @@ def _describe_missing_leader(joint: Joint) -> str:
 
 
 def _report_unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
-    near = suggest_name(mimic.joint, robot.joint)
+    near = suggest_joint(robot, mimic.joint)
     return Problem(
         joint,
         f"joint '{joint.name}' mimics '{mimic.joint}', but the robot has no such joint{near}",
         at=mimic.locate_attribute("joint"),
         alike=bool(near),
-        data={"suggestion": find_nearest(mimic.joint, robot.joint)},
+        data={"suggestion": find_nearest_joint(robot, mimic.joint)},
         effects=select_holding(mimic_unknown_joint.effects, "a name"),
     )
 
@@ -258,9 +258,11 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
 
     At the limit of the leader, the mimic joint would have to be beyond its own limit. In MuJoCo 4.0
     the mimic constraint and the limit conflict: the leader stops early, and a gripper may
-    oscillate. ``tolerance`` [rad or m] is the difference that is ignored. The description does not
-    show which of the two joints has the right limits, so there is no fix. Joints whose bounds are
-    exchanged, or that mimic each other in a circle, are not reported.
+    oscillate. ``tolerance`` [rad or m] is the difference that is ignored. If the limits hold for
+    the opposite multiplier, its sign is the first thing to check, and the finding is at it.
+    Otherwise the description does not show which of the two joints has the right limits, so there
+    is no fix. Joints whose bounds are exchanged, or that mimic each other in a circle, are not
+    reported.
     """
     circular = {problem.name for problem in report_joints_of_cycles(robot)}
     for joint, mimic in _iterate_mimic_joints(robot):
@@ -277,12 +279,21 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
         is_narrow = ends[0] < lower - tolerance or ends[1] > upper + tolerance
         if low <= high and lower <= upper and is_narrow:
             name = "lower" if ends[0] < lower - tolerance else "upper"
+            turned = sorted(mimic.offset - mimic.multiplier * value for value in (low, high))
+            fits = lower - tolerance <= turned[0] and turned[1] <= upper + tolerance
+            remedy = f"reduce the limits of '{leader.name}', or extend those of '{joint.name}'"
+            if fits:
+                remedy = (
+                    f"with multiplier {-mimic.multiplier:g} in place of {mimic.multiplier:g} it "
+                    "would keep them; check the sign first, then the limits"
+                )
             yield Problem(
                 joint,
                 f"mimic joint '{joint.name}' follows '{leader.name}' from {ends[0]:.4g} "
-                f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}; "
-                f"reduce the limits of '{leader.name}', or extend those of '{joint.name}'",
-                at=joint.limit.locate_attribute(name),
+                f"to {ends[1]:.4g}, beyond its own limits {lower:g} to {upper:g}; {remedy}",
+                at=mimic.locate_attribute("multiplier")
+                if fits
+                else joint.limit.locate_attribute(name),
                 cause=(joint, leader),
                 data={"leader": leader.name, "range": ends, "limits": [lower, upper]},
             )

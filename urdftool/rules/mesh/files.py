@@ -54,11 +54,16 @@ def mesh_not_found(
     The link then has no visual or no collision geometry, or readers reject the robot. It goes
     unnoticed on machines that have the file in a cache or in another checkout. Several uses of one
     file are one finding, and so are more than ``together`` missing files of one missing folder.
+    A ``file://`` URI with a relative path names no file for RViz, even if the file is next to the
+    description, where PyBullet and readers with a path of resources find it. All of them are one
+    finding.
     """
     missing: dict[Path, list[MeshUse]] = {}
     yield from _report_refused(get_mesh_uses(robot, description))
+    keeps = keeps_visuals(robot)
+    yield from _report_relative(get_mesh_uses(robot, description), keeps)
     for use in get_mesh_uses(robot, description):
-        if use.path is None or use.exists or use.is_fixed_path:
+        if use.path is None or use.exists or use.is_fixed_path or _get_relative_path(use):
             continue
         if (
             find_malformation(use)
@@ -70,7 +75,6 @@ def mesh_not_found(
     folders: dict[Path, list[Path]] = {}
     for path in missing:
         folders.setdefault(_find_missing_folder(description.workspace, path), []).append(path)
-    keeps = keeps_visuals(robot)
     for folder, paths in folders.items():
         if len(paths) > together and not description.workspace.exists(folder):
             first = missing[paths[0]][0]
@@ -111,6 +115,36 @@ def _report_refused(uses: list[MeshUse]) -> Iterator[Problem]:
             severity=WARNING,
             data={"uri": use.uri, "refusal": use.refusal},
             effects=[],
+        )
+
+
+def _get_relative_path(use: MeshUse) -> str:
+    """Get the path of a ``file://`` URI that is relative; empty for other URIs."""
+    scheme, separator, rest = use.uri.partition("://")
+    return "" if not separator or scheme != "file" or use.is_absolute else rest
+
+
+def _report_relative(uses: list[MeshUse], keeps: bool) -> Iterator[Problem]:
+    """Report ``file://`` URIs with a relative path, those next to the description on their own."""
+    groups: dict[bool, list[MeshUse]] = {}
+    for use in uses:
+        if _get_relative_path(use) and not find_malformation(use):
+            groups.setdefault(_is_above(use), []).append(use)
+    for above, group in groups.items():
+        use, count = group[0], len({use.uri for use in group})
+        path = _get_relative_path(use)
+        more = f" (and {count - 1} more)" if count > 1 else ""
+        there = f"'{path}' does not exist in the folder of the description or above it"
+        if above:
+            there = f"'{path}' exists at the description or above it, where PyBullet finds it, and "
+            there += "Gazebo if its resource path names that folder"
+        yield Problem(
+            use.link,
+            f"mesh '{use.uri}'{more} is a file:// URI without an absolute path; {there}; write "
+            "package://PACKAGE/… or a relative path without file://",
+            at=use.mesh.locate_attribute("filename"),
+            data={"uri": use.uri, "path": path, "count": count},
+            effects=[one for one in _select_effects(keeps, group) if not above or one != "gz"],
         )
 
 

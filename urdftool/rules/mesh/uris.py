@@ -348,20 +348,23 @@ def relative_uri_in_ros(robot: Robot, description: Description) -> Iterator[Prob
 
     A robot that arrives on a topic or a parameter has no folder, so RViz cannot resolve relative
     paths. Write ``package://NAME/…``, which every installation of the package resolves. One finding
-    names all such meshes.
+    names all such meshes. A file that does not exist is a finding of ``mesh-not-found`` instead,
+    and one outside of the package is left out, because no such URI names it. PyBullet takes the
+    name in a URI as that of a folder above the description; if the folder of the package has
+    another name, the message adds it.
     """
     own = description.packages.own
     if own is None:
         return
-    relative = _select_relative(get_mesh_uses(robot, description))
+    uses = _select_relative(get_mesh_uses(robot, description))
+    relative = [use for use in uses if _get_package_uri(use, own) is not None]
     if relative:
         first = relative[0]
         count = len({use.uri for use in relative})
         more = f" (and {count - 1} more)" if count > 1 else ""
-        right = f"package://{own[0]}/…"
-        if first.path is not None and first.exists:
-            inside = os.path.relpath(os.path.normpath(first.path), own[1]).replace(os.sep, "/")
-            right = right if inside.startswith("..") else f"package://{own[0]}/{inside}"
+        right = _get_package_uri(first, own)
+        if own[1].name != own[0]:
+            right = f"{right}, which PyBullet finds only in a folder '{own[0]}'"
         yield Problem(
             first.link,
             f"mesh '{first.uri}'{more} is a relative path; write {right}",
@@ -378,7 +381,7 @@ def write_package_uris(problem: Problem, context: FixContext) -> Proposal | None
     for use in _select_relative(get_mesh_uses(context.robot, context.description)):
         uri = _get_package_uri(use, own)
         if uri is None:
-            return None
+            continue  # it does not exist, or is not in the package
         changes.append(set_attribute(use.mesh.element, "filename", uri))
     return unsafe(f"write package://{own[0] if own else ''}/…", *changes) if changes else None
 

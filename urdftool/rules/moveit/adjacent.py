@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Robot
+from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
-from ...source.document import Element
+from ...source.document import Document, Element
 from ..collision.convex_bodies import get_convex_bodies
+from ..collision.exact_contact import find_contact
+from ..collision.overlap import has_mesh
 from ..fix import (
     FixContext,
     Proposal,
@@ -16,7 +18,7 @@ from ..fix import (
     insert_after,
     unsafe,
 )
-from ..rule import UNSAFE, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from .semantic import get_srdf_documents
 
 
@@ -31,7 +33,10 @@ def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterat
     """Two adjacent links overlap, and the SRDF does not disable their collision.
 
     Links that share a joint often overlap there. MoveIt checks each pair without
-    ``<disable_collisions>``, reports the start state in collision, and plans nothing.
+    ``<disable_collisions>``, reports the start state in collision, and plans nothing. MoveIt
+    compares the triangles of meshes, so links whose convex hulls overlap while their surfaces are
+    apart are not reported. If a mesh cannot be read as triangles, or has too many, the overlap of
+    the hulls is an info.
     """
     for document in get_srdf_documents(robot, description):
         disabled = {
@@ -40,24 +45,40 @@ def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterat
             if element.tag == "disable_collisions"
         }
         known = get_convex_bodies(robot)
+
+        def may_touch(one: Link, other: Link) -> bool:
+            return find_contact(robot, one, other) is not False
+
         for joint in robot.joints:
             one, other = (known.body_of.get(n, n) for n in (joint.parent, joint.child))
             if one == other or one not in known.bodies or other not in known.bodies:
                 continue
-            deepest = known.find_deepest_overlap(other, one)
+            deepest = known.find_deepest_overlap(other, one, counts=may_touch)
             if deepest is None:
                 continue
             link, above, _ = deepest
             if frozenset((link.name, above.name)) not in disabled:
-                yield Problem(
-                    joint,
-                    f"links '{above.name}' and '{link.name}' overlap at joint '{joint.name}', "
-                    "but the "
-                    f"SRDF does not disable their collision; write <disable_collisions "
-                    f'link1="{above.name}" link2="{link.name}" reason="Adjacent"/>',
-                    at=document.root,
-                    data={"links": [above.name, link.name]},
-                )
+                yield _report_pair(robot, document, joint, above, link)
+
+
+def _report_pair(
+    robot: Robot, document: Document, joint: Joint, above: Link, link: Link
+) -> Problem:
+    """Report two links at a joint that overlap; those of unknown surfaces by their hulls."""
+    known = not (has_mesh(above) or has_mesh(link)) or find_contact(robot, above, link)
+    what = "links" if known else "the convex hulls of links"
+    but = "" if known else ", whose triangles were not compared as MoveIt does,"
+    return Problem(
+        joint,
+        f"{what} '{above.name}' and '{link.name}'{but} overlap at joint '{joint.name}', but the "
+        f"SRDF does not disable their collision; write <disable_collisions "
+        f'link1="{above.name}" link2="{link.name}" reason="Adjacent"/>'
+        f"{'' if known else ' if the links touch'}",
+        at=document.root,
+        severity=None if known else INFO,
+        effects=None if known else (),
+        data={"links": [above.name, link.name]},
+    )
 
 
 @adjacent_pair_not_disabled.fix(UNSAFE)

@@ -15,7 +15,7 @@ from ...source.packages import shorten_path
 from ...source.yaml_tree import Node, parse_yaml
 from ..fix import FixContext, Proposal, Span, safe, unsafe
 from ..rule import ERROR, SAFE, UNSAFE, Problem, rule
-from ..words import join_some, suggest_name
+from ..words import join_some, suggest_joint, suggest_name
 from .semantic import get_srdf_documents
 
 _ON = ("moveit",)
@@ -250,7 +250,7 @@ def moveit_controller_unknown_joint(robot: Robot, description: Description) -> I
                         robot,
                         f"MoveIt controller '{name}' refers to joint '{node.text}', which the "
                         "robot "
-                        f"does not have{suggest_name(node.text, robot.joint)}",
+                        f"does not have{suggest_joint(robot, node.text)}",
                         at=node.place,
                     )
 

@@ -22,7 +22,7 @@ from ..fix import (
     write_suggestion,
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import find_nearest, suggest_name
+from ..words import find_nearest, find_nearest_joint, suggest_joint, suggest_name
 
 _ON = ("moveit",)
 
@@ -128,9 +128,9 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
                 yield Problem(
                     element,
                     f"<{element.tag}> refers to joint '{name}', which the robot does not have"
-                    + suggest_name(name, robot.joint),
+                    + suggest_joint(robot, name),
                     at=element.locate_attribute(attribute),
-                    data={"suggestion": find_nearest(name, robot.joint)},
+                    data={"suggestion": find_nearest_joint(robot, name)},
                 )
 
 

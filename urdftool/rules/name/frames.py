@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot, Sensor
-from ...model.pose import IDENTITY, compute_dot, make_pose, rotation_from_rpy
+from ...model.kinematics import link_poses
+from ...model.pose import IDENTITY, Pose, Rotation, compute_dot, make_pose, rotation_from_rpy
 from ..fix import FixContext, Proposal, set_text, unsafe
 from ..gazebo.sensors import get_pose_in_link
 from ..rule import GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
@@ -36,6 +37,10 @@ def missing_base_link(robot: Robot) -> Iterator[Problem]:
             "takes z of the frame as the viewing direction: points and rays are rotated relative "
             "to the robot"
         ),
+        "image_geometry (rolled)": (
+            "takes x of the frame as right and y as down in the image: points and rays are rotated "
+            "about the viewing direction"
+        ),
     },
 )
 def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Iterator[Problem]:
@@ -44,8 +49,12 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
     A camera frame has x forward and z up; its optical frame has z forward and x to the right
     (REP 103). Between them is ``rpy="-1.5708 0 -1.5708"``. Otherwise point clouds are rotated by
     the angle in the message: often 90° or 180°, or 120° if the rotation was forgotten.
-    ``tolerance`` [rad] is the tolerated angle.
+    ``tolerance`` [rad] is the tolerated angle. An optical frame that looks along x of its camera's
+    frame may be rolled so that its y axis, the columns of the image, points down with all joints
+    at rest, because the camera's frame is mounted upside down or on its side. Another roll by
+    180° about x is an info, because the camera may be mounted upside down in its frame.
     """
+    poses: dict[str, Pose] | None = None
     for joint in robot.joints:
         if not joint.is_fixed or not _is_optical_of(joint):
             continue
@@ -56,17 +65,49 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
             for a, b in zip(row, expected, strict=True)
         )
         if off > tolerance:
+            looks_ahead = abs(rotation[0][2] - 1) <= tolerance
+            if looks_ahead:
+                poses = link_poses(robot) if poses is None else poses
+                if _is_upright_by_roll(rotation, poses.get(joint.parent)):
+                    continue
             turns = sum(
                 compute_dot(row, expected) for row, expected in zip(rotation, _OPTICAL, strict=True)
             )
             angle = math.degrees(math.acos(max(-1.0, min(1.0, (turns - 1) / 2))))
+            way = "about the viewing direction" if looks_ahead else "from the viewing direction"
+            is_inverted = looks_ahead and angle > 179
+            unless = ", unless the camera is mounted upside down in it" if is_inverted else ""
             yield Problem(
                 joint,
-                f"optical frame '{joint.child}' is rotated by {angle:.3g}° from the viewing "
-                f"direction of '{joint.parent}'; write rpy=\"-1.5708 0 -1.5708\"",
+                f"optical frame '{joint.child}' is rotated by {angle:.3g}° {way} of "
+                f"'{joint.parent}'; write rpy=\"-1.5708 0 -1.5708\"{unless}",
                 at=joint.origin,
+                severity=INFO if is_inverted else None,
+                effects=("image_geometry (rolled)" if looks_ahead else "image_geometry",),
                 data={"angle": angle},
             )
+
+
+def _is_upright_by_roll(rotation: Rotation, camera: Pose | None) -> bool:
+    """Tell whether the image of a rolled optical frame is upright, and by the convention not.
+
+    Args:
+        rotation: Rotation of the optical frame, which looks along x of the camera's frame.
+        camera: Pose of the camera's frame in the frame of the root, whose z axis points up.
+    """
+    if camera is None:
+        return False
+    up = camera.rotation[2]  # the root's z axis in the camera's frame
+    steep = math.hypot(up[1], up[2])
+    written = -(rotation[1][1] * up[1] + rotation[2][1] * up[2])
+    return steep > LEVEL and written >= UPRIGHT * steep and up[2] < UPRIGHT * steep
+
+
+UPRIGHT = math.cos(math.radians(30))
+"""Cosine of the roll up to which an image is upright. Chosen, no source."""
+LEVEL = math.sin(math.radians(15))
+"""Sine of the angle between a viewing direction and the vertical, above which an image has an
+upper side. Chosen, no source."""
 
 
 @optical_frame_orientation.fix(UNSAFE)

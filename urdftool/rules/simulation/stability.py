@@ -14,6 +14,7 @@ from ..rule import ANY_FORMAT, INFO, WARNING, Problem, rule
     effects={
         "gazebo-classic": "solves joints iteratively, by default 50 times; this one may give way",
     },
+    default=False,
     formats=ANY_FORMAT,
 )
 def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) -> Iterator[Problem]:

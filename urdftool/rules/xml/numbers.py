@@ -48,7 +48,7 @@ _OF_PYBULLET = {
     "pybullet (too few numbers, an axis)": "rejects the robot",
     "pybullet (too few numbers, an origin or size)": "takes 0 0 0",
     "pybullet (too few numbers, a scale)": "takes the first number for all three",
-    "pybullet (in a color)": "takes 0 0 0 0",
+    "pybullet (in a color, of a material with a name)": "takes 0 0 0 0",
 }
 
 
@@ -108,7 +108,7 @@ _PLACES = {
     "visual": ("in a visual", "not in a color"),
     "collision": ("in a collision", "not in a visual", "not in a color"),
     "inertial": ("in an inertial", "not in a visual", "not in a color"),
-    "material": ("in a color", "not in a visual"),
+    "material": ("in a color", "not in a visual", "of a material with a name"),
 }
 _VECTOR_OF = {
     "axis": "an axis",
@@ -124,6 +124,8 @@ def _get_conditions(element: Element) -> tuple[str, ...]:
     while above is not None and above.tag not in _PLACES:
         above = above.parent
     place = _PLACES[above.tag] if above is not None else ()
+    if above is not None and above.tag == "material" and not above.get("name"):
+        place = place[:-1]  # PyBullet takes one color for all materials without a name
     kind = _VECTOR_OF.get(element.tag)
     return (*place, kind) if kind else place
 
