@@ -1,9 +1,11 @@
-"""Step exported stages in Newton as well as MuJoCo: ``python -m measure.newton_standing``.
+"""Step exported stages in Newton and MuJoCo: ``python -m measure.newton_standing [URDF...]``.
 
 Robots of example-robot-data and pybullet_data with a free base are exported by ``export usd`` and
 ``export mjcf`` without options. The MJCF is stepped in MuJoCo from its key ``home``; the stage in
 Newton, on its MuJoCo solver on the processor, from the same pose and joint positions and at the
 same step. A line for each robot has the drift of the base in both after 1 s; the last lines count.
+A stage says nothing on the solver, so Newton is run with its default, pyramidal cones of friction,
+and with elliptic ones, which the MJCF has.
 Requires Newton (``pip install 'urdftool[usd-verify]'``); without it, nothing is measured.
 """
 
@@ -26,6 +28,9 @@ from measure.benchmarks.robots import bullet_robots, example_folder, example_rob
 
 SECONDS, CLOSE = 1.0, 0.01
 """Simulated time [s]; difference of two drifts that counts as equal [m]."""
+
+CONES = ("pyramidal", "elliptic")
+"""Cones of friction of Newton's solver; the first is its default."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +73,7 @@ def step_mujoco(scene: Path) -> Start | None:
     return Start(model.body(base).name, pose, joints, float(model.opt.timestep), motion)
 
 
-def step_newton(stage: Path, start: Start) -> np.ndarray:
+def step_newton(stage: Path, start: Start, cone: str) -> np.ndarray:
     """Return the displacement of the base of a stage [m]."""
     import newton
     import warp
@@ -79,7 +84,7 @@ def step_newton(stage: Path, start: Start) -> np.ndarray:
     builder.add_ground_plane()
     model = builder.finalize(device="cpu")
     body, frame = _place(newton, stage, model, start)
-    solver = newton.solvers.SolverMuJoCo(model, use_mujoco_cpu=True)
+    solver = newton.solvers.SolverMuJoCo(model, use_mujoco_cpu=True, cone=cone)
     state, after, control = model.state(), model.state(), model.control()
     newton.eval_fk(model, model.joint_q, model.joint_qd, state)
     for _ in range(round(SECONDS / start.timestep)):
@@ -133,22 +138,23 @@ def _matrix(pose: np.ndarray) -> np.ndarray:
     return matrix
 
 
-def try_robot(path: Path) -> tuple[str, Start | None, np.ndarray | str]:
-    """Export a robot to both formats and step both."""
+def try_robot(path: Path) -> tuple[str, Start | None, list[np.ndarray] | str]:
+    """Export a robot to both formats; step the MJCF, and the stage with each kind of cone."""
     from urdftool import export_mjcf, export_usd, load
 
     share = example_folder()
     paths = [path.parent] if share is None else [path.parent, share.parent]
     name = f"{path.parent.name}/{path.stem}"
     with tempfile.TemporaryDirectory() as folder:
+        scene, stage = Path(folder, "m_scene.xml"), Path(folder, "m.usda")
         try:
             robot = load(path, package_paths=paths)
-            export_mjcf(robot, f"{folder}/m.xml", scene=True)
-            start = step_mujoco(Path(folder, "m_scene.xml"))
+            export_mjcf(robot, f"{folder}/m.xml", scene=True, force=True)
+            start = step_mujoco(scene)
             if start is None:
                 return name, None, ""
-            export_usd(robot, f"{folder}/m.usda")
-            return name, start, step_newton(Path(folder, "m.usda"), start)
+            export_usd(robot, stage, force=True)
+            return name, start, [step_newton(stage, start, cone) for cone in CONES]
         except Exception as error:
             return name, None, f"{type(error).__name__}: {' '.join(str(error).split())}"
 
@@ -156,32 +162,30 @@ def try_robot(path: Path) -> tuple[str, Start | None, np.ndarray | str]:
 def main(arguments: list[str]) -> int:
     """Print the drift of each robot in both engines, and the counts."""
     parser = argparse.ArgumentParser(prog="python -m measure.newton_standing", description=__doc__)
-    parser.add_argument("--only", default="", metavar="WORD", help="Part of the path of a robot.")
-    parser.add_argument("--part", default="1/1", metavar="K/N", help="The K-th of N parts.")
-    given = parser.parse_args(arguments)
-    paths = [path for path in (*example_robots(), *bullet_robots()) if given.only in str(path)]
-    part, parts = map(int, given.part.split("/"))
+    parser.add_argument("robots", nargs="*", type=Path, help="Descriptions; default: all.")
+    paths = parser.parse_args(arguments).robots or [*example_robots(), *bullet_robots()]
     counts: Counter[str] = Counter()
     with ProcessPoolExecutor(1) as pool:
-        for name, start, motion in pool.map(try_robot, paths[part - 1 :: parts]):
-            if start is None and not motion:
-                continue
-            print(f"{name}: {_describe(start, motion, counts)}", flush=True)
+        for name, start, motions in pool.map(try_robot, paths):
+            if start is not None or motions:
+                print(f"{name}: {_describe(start, motions, counts)}", flush=True)
     for name, count in counts.items():
         print(f"{name}: {count}")
     return 0
 
 
-def _describe(start: Start | None, motion: np.ndarray | str, counts: Counter[str]) -> str:
-    if start is None or isinstance(motion, str):
+def _describe(start: Start | None, motions: list[np.ndarray] | str, counts: Counter[str]) -> str:
+    if start is None or isinstance(motions, str):
         counts["not stepped"] += 1
-        return str(motion)[:160]
-    apart = float(np.linalg.norm(motion - start.motion))
+        return str(motions)[:160]
     counts["stepped in both"] += 1
-    counts["equal within 1 cm"] += apart < CLOSE
-    counts["drift below 1 cm in Newton"] += float(np.linalg.norm(motion)) < CLOSE
-    drifts = [1000 * float(np.linalg.norm(one)) for one in (start.motion, motion)]
-    return "MuJoCo {:.1f} mm, Newton {:.1f} mm, apart {:.1f} mm".format(*drifts, 1000 * apart)
+    text = f"MuJoCo {1000 * float(np.linalg.norm(start.motion)):.1f} mm"
+    for cone, motion in zip(CONES, motions, strict=True):
+        apart = float(np.linalg.norm(motion - start.motion))
+        counts[f"equal within 1 cm, {cone}"] += apart < CLOSE
+        drift = float(np.linalg.norm(motion))
+        text += f"; {cone} {1000 * drift:.1f} mm, apart {1000 * apart:.1f} mm"
+    return text
 
 
 if __name__ == "__main__":

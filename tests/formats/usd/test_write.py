@@ -461,6 +461,7 @@ def test_collision_meshes_are_decomposed_into_scaled_pieces(stage, write):
     prims = made.GetPrimAtPath("/r/a/collisions/mesh").GetChildren()
     assert [prim.GetName() for prim in prims] == ["mesh_0", "mesh_1"]
     assert {value(prim, "physics:approximation") for prim in prims} == {"convexHull"}
+    assert {value(prim, "newton:maxHullVertices") for prim in prims} == {-1}
     points = np.array(value(prims[0], "points"))
     corners = value(prims[0], "faceVertexIndices")
     assert points[:, 2].min() == -2 or len(points) == 3

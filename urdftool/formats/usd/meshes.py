@@ -25,7 +25,7 @@ from ..defects import make_defect
 from ..written import Written
 from .materials import Look, MaterialWriter
 from .names import make_identifier
-from .stage import GEOMETRY, PHYSICS, StageBuilder
+from .stage import GEOMETRY, PHYSICS, StageBuilder, apply, set_value
 
 Key = tuple[Path, Vector, bool]
 """File, scale, and whether it is collision geometry."""
@@ -163,7 +163,7 @@ class Meshes:
                 prim = self._write_mesh(parent.AppendChild(name), vertices, faces, None)
                 with self.builder.edit_layer(PHYSICS):
                     make_collider(prim)
-                    UsdPhysics.MeshCollisionAPI.Apply(prim).CreateApproximationAttr(token)
+                    approximate(prim, token)
             return
         groups = _group_by_look(mesh)
         for index, (look, faces, uv) in enumerate(groups):
@@ -215,6 +215,14 @@ def make_collider(prim: Usd.Prim) -> None:
     """Make a prim collision geometry, which is not drawn."""
     UsdPhysics.CollisionAPI.Apply(prim)
     UsdGeom.Imageable(prim).CreatePurposeAttr(UsdGeom.Tokens.guide)
+
+
+def approximate(prim: Usd.Prim, token: str) -> None:
+    """Write how simulators replace a collision mesh; Newton keeps all vertices of its hull."""
+    UsdPhysics.MeshCollisionAPI.Apply(prim).CreateApproximationAttr(token)
+    if token == UsdPhysics.Tokens.convexHull:
+        apply(prim, "NewtonMeshCollisionAPI")
+        set_value(prim, "newton:maxHullVertices", "int", -1)
 
 
 def _scale(piece: tuple[Points, Faces], scale: Vector) -> tuple[Points, Faces]:

@@ -29,7 +29,7 @@ from ..common.naming import UniqueNames
 from ..written import Written
 from .links import LinkWriter
 from .materials import MaterialWriter
-from .meshes import Meshes, make_collider, write_triangles
+from .meshes import Meshes, approximate, make_collider, write_triangles
 from .names import make_identifier
 from .stage import GEOMETRY, PHYSICS, set_pose
 from .surfaces import SurfaceWriter
@@ -137,8 +137,7 @@ class ShapeWriter:
             with self.links.builder.edit_layer(PHYSICS):
                 make_collider(prim)
                 if isinstance(geometry, Ellipsoid):
-                    mesh = UsdPhysics.MeshCollisionAPI.Apply(prim)
-                    mesh.CreateApproximationAttr(UsdPhysics.Tokens.convexHull)
+                    approximate(prim, UsdPhysics.Tokens.convexHull)
 
     def _create_geometry(
         self, scope: Sdf.Path, name: str, geometry: Geometry, *, is_shared: bool
