@@ -14,7 +14,7 @@ _NAMESPACES = re.compile(r"(physics|physx\w*|newton|mjc|drive|limit|state|urdf|o
 _READ = re.compile(
     r"physics:(mass|centerOfMass|diagonalInertia|principalAxes|rigidBodyEnabled|collisionEnabled|"
     r"approximation|axis|(lower|upper)Limit|local(Pos|Rot)[01]|jointEnabled|excludeFromArticulation)"
-    r"|newton:(inertia|velocityLimit|damping|friction|armature|mimic(Coef[01]|Enabled))"
+    r"|newton:(inertia|velocityLimit|damping|friction|armature|mimic(Coef[01]|Enabled)|maxHullVertices)"
     r"|drive:\w+:physics:(maxForce|stiffness|damping)|limit:\w+:physics:(low|high)"
     r"|physxJointAxis:\w+:(maxJointVelocity|viscousFrictionCoefficient|armature|"
     r"(static|dynamic)FrictionEffort)"
