@@ -34,6 +34,7 @@ class Report:
         skipped_fixes: Missing optional library by rule whose fix requires it.
         not_fixed: Findings whose fix cannot be applied to the source, with the reason.
         outside: Findings whose fix would change a file outside of the package, with both.
+        unread_meshes: Why a mesh file may not be read, so that it was not checked, by its URI.
     """
 
     path: str
@@ -54,6 +55,7 @@ class Report:
     skipped_fixes: dict[str, str] = field(default_factory=dict)
     not_fixed: list[tuple[Finding, str]] = field(default_factory=list)
     outside: list[tuple[Finding, str]] = field(default_factory=list)
+    unread_meshes: dict[str, str] = field(default_factory=dict)
 
     @property
     def suppressed(self) -> int:
@@ -100,6 +102,17 @@ class Outcome:
             for report in self.reports
             for rule, library in sorted(report.skipped_rules.items())
         }
+
+    @property
+    def unread_meshes(self) -> dict[str, list[str]]:
+        """Return the URIs of meshes that were not checked by the reason, each once."""
+        found: dict[str, list[str]] = {}
+        for report in self.reports:
+            for uri, reason in report.unread_meshes.items():
+                uris = found.setdefault(reason, [])
+                if uri not in uris:
+                    uris.append(uri)
+        return found
 
     @property
     def not_checked(self) -> list[Report]:

@@ -18,6 +18,7 @@ from ..model.attached import TooManyAttached
 from ..model.elements import Robot
 from ..model.read import read_robot
 from ..rules import applies_to
+from ..rules.mesh.mesh_uses import collect_unread_meshes
 from ..rules.old_names import find_old_names, find_old_rules
 from ..rules.rule import Problem, Rule
 from ..rules.table import APPLIES_TO, FIXES
@@ -321,6 +322,7 @@ def _check_description(
     ]
     report.findings = sort_findings(merge(findings))
     report.rejected = rejections.list_rejecting({finding.code for finding in findings})
+    report.unread_meshes = {} if robot is None else collect_unread_meshes(robot)
     for memo in (description.memo, *([robot.memo] if robot is not None else ())):
         memo.clear()  # breaks a reference cycle with the robot
 

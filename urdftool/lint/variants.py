@@ -119,6 +119,7 @@ def as_one(reports: Mapping[str, Report]) -> Report:
         stopped="; ".join(f"with {name}: {reason}" for name, reason in stopped.items()),
         failed_rules={k: v for r in checked.values() for k, v in r.failed_rules.items()},
         skipped_rules={k: v for r in checked.values() for k, v in r.skipped_rules.items()},
+        unread_meshes={k: v for r in checked.values() for k, v in r.unread_meshes.items()},
     )
 
 

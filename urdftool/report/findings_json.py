@@ -39,6 +39,11 @@ def to_json(outcome: Outcome, fixes: Mapping[str, Any] | None = None) -> str:
             {"rule": rule, "library": library, "extra": EXTRA_OF[library]}
             for rule, library in outcome.skipped_rules.items()
         ]
+    unread = [(report.path, *item) for report in reports for item in report.unread_meshes.items()]
+    if unread:
+        table["summary"]["unread_meshes"] = [
+            {"path": path, "mesh": uri, "reason": reason} for path, uri, reason in unread
+        ]
     if outcome.known:
         table["summary"]["baselined"] = len(outcome.known)
     if fixes is not None:

@@ -100,6 +100,9 @@ def _add_unchecked(suite: Element, report: Report) -> None:
     for rule, library in report.skipped_rules.items():
         why = str(make_missing_error(library, f"rule {rule}"))
         SubElement(_build_case(suite, report.path, rule), "skipped", message=escape_controls(why))
+    for uri, why in report.unread_meshes.items():
+        message = escape_controls(f"mesh '{uri}' {why}")
+        SubElement(_build_case(suite, report.path, "lint"), "skipped", message=message)
     for rule, why in report.failed_rules.items():
         SubElement(
             _build_case(suite, report.path, rule),

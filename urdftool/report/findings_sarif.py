@@ -23,6 +23,7 @@ from .findings_words import (
     format_message,
     format_remarks,
     list_skipped_rules,
+    list_unread_meshes,
 )
 from .json_text import format_json
 
@@ -205,5 +206,6 @@ def _build_invocation(outcome: Outcome) -> dict[str, Any]:
             {"level": "error", "message": {"text": text}, "locations": [where]} for text in messages
         ]
     record: dict[str, Any] = {"executionSuccessful": not notes}
-    notes += [{"level": "note", "message": {"text": text}} for text in list_skipped_rules(outcome)]
+    unchecked = (*list_skipped_rules(outcome), *list_unread_meshes(outcome))
+    notes += [{"level": "note", "message": {"text": text}} for text in unchecked]
     return record | {"toolExecutionNotifications": notes} if notes else record

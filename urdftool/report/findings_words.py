@@ -82,6 +82,14 @@ def list_skipped_rules(outcome: Outcome) -> list[str]:
     ]
 
 
+def list_unread_meshes(outcome: Outcome) -> Iterator[str]:
+    """Yield how many meshes were not checked, for each reason, with the remedy."""
+    for reason, uris in outcome.unread_meshes.items():
+        count, first = len(uris), escape_controls(uris[0])
+        named = f"mesh '{first}'" if count == 1 else f"{count} meshes; the first, '{first}',"
+        yield f"not checked: {named} {escape_controls(reason)}"
+
+
 def list_rejections(outcome: Outcome) -> Iterator[str]:
     """Yield what readers do with each robot as a whole, by its findings.
 

@@ -57,6 +57,7 @@ def mesh_not_found(
     A ``file://`` URI with a relative path names no file for RViz, even if the file is next to the
     description, where PyBullet and readers with a path of resources find it. All of them are one
     finding.
+    Files outside of the project are not read; the summary counts them as not checked.
     """
     missing: dict[Path, list[MeshUse]] = {}
     yield from _report_refused(get_mesh_uses(robot, description))
@@ -100,10 +101,10 @@ def mesh_not_found(
 
 
 def _report_refused(uses: list[MeshUse]) -> Iterator[Problem]:
-    """Report files that exist, but that the description may not read, so that none is checked."""
+    """Report devices and pipes; the summary counts other files that may not be read."""
     groups: dict[str, dict[str, MeshUse]] = {}
     for use in uses:
-        if use.refusal:
+        if use.refusal and not use.is_unread:
             groups.setdefault(use.refusal_reason, {}).setdefault(use.uri, use)
     for group in groups.values():
         use, others = next(iter(group.values())), len(group) - 1

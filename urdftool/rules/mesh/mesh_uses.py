@@ -8,10 +8,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ...errors import AccessError, PackageNotFound
+from ...file_access import IRREGULAR
 from ...model.elements import Collision, Link, Mesh, Robot, Visual
 from ...source.description import Description, GltfUp
 from ...workspace import Workspace
 
+_USES = "mesh uses"
 _ABSOLUTE = re.compile(r"(file://)?(/|[A-Za-z]:[\\/]|~)")
 
 
@@ -48,6 +50,11 @@ class MeshUse:
         return self.size is not None
 
     @property
+    def is_unread(self) -> bool:
+        """Whether it is a file that the description may not read, and so was not checked."""
+        return bool(self.refusal_reason) and self.refusal_reason != IRREGULAR
+
+    @property
     def uri(self) -> str:
         """The ``filename`` as expanded."""
         return self.mesh.filename
@@ -82,7 +89,17 @@ def is_concave(use: MeshUse) -> bool:
 
 def get_mesh_uses(robot: Robot, description: Description) -> list[MeshUse]:
     """List the meshes of a robot in the order of the file; cached for all rules."""
-    return robot.memo.get("mesh uses", lambda: list(_locate_meshes(robot, description)))
+    return robot.memo.get(_USES, lambda: list(_locate_meshes(robot, description)))
+
+
+def collect_unread_meshes(robot: Robot) -> dict[str, str]:
+    """Collect the meshes that a robot uses, but may not read, so that no rule checks them.
+
+    Returns:
+        The reason, with a remedy, by the URI. Empty if no rule looked at meshes.
+    """
+    uses: list[MeshUse] = robot.memo.peek(_USES) or []
+    return {use.uri: use.refusal_reason for use in uses if use.is_unread}
 
 
 def _locate_meshes(robot: Robot, description: Description) -> Iterator[MeshUse]:
