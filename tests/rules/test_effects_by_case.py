@@ -48,6 +48,7 @@ def effects_of(tmp_path, rule, text):
     return found(tmp_path, rule, text).effects
 
 
+PLANAR = _robot(HEAVY, kind="planar", limit=f'{LIMIT}<dynamics damping="1"/>')
 NEGATIVE, MASSLESS = (INERTIAL.format(mass=mass, moment=0.01) for mass in (-1, 0))
 HELD = _robot(MASSLESS, kind="fixed").replace(
     "</robot>",
@@ -363,8 +364,8 @@ TWO = BOX.replace("</geometry>", '<sphere radius="0.1"/></geometry>')
         ("mimic-cycle", _robot(HEAVY, limit=JOINT.format(LIMIT, "swing")), "mujoco", "4.0 rejects"),
         ("mimic-unknown-joint", _robot(HEAVY, limit=JOINT.format(LIMIT, "x")), "mujoco", "drops"),
         ("mimic-unknown-joint", _robot(HEAVY, limit=f"{LIMIT}<mimic/>"), "mujoco", "4.0 rejects"),
-        ("planar-or-floating", _robot(HEAVY, kind="planar"), "pybullet", "gives it two prismatic"),
-        ("planar-or-floating", _robot(HEAVY, kind="planar"), "mujoco", "loads it"),
+        ("planar-or-floating", PLANAR, "pybullet", "gives it two prismatic"),
+        ("planar-or-floating", PLANAR, "mujoco", "loads it"),
         ("planar-or-floating", _robot(HEAVY, kind="floating"), "pybullet", "treats it as fixed"),
         ("planar-or-floating", _robot(HEAVY, kind="floating"), "mujoco", "rejects the file"),
         ("unknown-joint-type", _robot(HEAVY, kind="hinge"), "mujoco, pybullet, drake", "reject it"),

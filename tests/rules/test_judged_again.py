@@ -1,5 +1,6 @@
 """Findings of packages of PyPI that were noise or wrong, by their causes, with counter-cases."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -266,3 +267,97 @@ def test_a_visual_in_millimeters_covers_no_collision_of_its_neighbor(tmp_path, s
     parts += [LINK.format("shin", f"{shin}</geometry></visual>")]
     parts += [JOINT.format("knee", "continuous", "thigh", "shin", '<origin xyz="0 0 -0.4"/>')]
     assert len(find(tmp_path, "collision-off-visual", *parts)) == 1
+
+
+OUTSIDE = LINK.format(
+    "a", '<visual><geometry><mesh filename="../meshes/a.stl"/></geometry></visual>'
+)
+
+
+def test_a_mesh_that_may_not_be_read_is_counted_in_the_summary(tmp_path, monkeypatch, urdftool):
+    trimesh.creation.box().export(tmp_path / "a.stl")
+    for folder in ("meshes", "urdf"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "a.stl").rename(tmp_path / "meshes" / "a.stl")
+    path = tmp_path / "urdf" / "r.urdf"
+    path.write_text(f'<robot name="r">{OUTSIDE}</robot>', "utf-8")
+    monkeypatch.delenv("URDFTOOL_TRUST", raising=False)
+    done = urdftool("lint", path, "--select", "mesh-not-found", "--format", "json")
+    assert (done.code, json.loads(done.out)["findings"]) == (0, [])
+    (unread,) = json.loads(done.out)["summary"]["unread_meshes"]
+    assert unread["mesh"] == "../meshes/a.stl"
+    assert "not checked: mesh '../meshes/a.stl' is outside of the project; pass" in done.err
+    done = urdftool("lint", path, "--select", "mesh-not-found", "--trust")
+    assert "not checked" not in done.err
+
+
+SHAPES = {kind: BOX.format(kind, "0.1 0.1 0.1") for kind in ("visual", "collision")}
+
+
+@pytest.mark.parametrize(
+    ("collides", "found"),
+    [("ac", []), ("ab", ["c"]), ("c", ["a", "b"]), ("bc", ["a"]), ("", ["a", "b", "c"])],
+)
+def test_a_link_between_links_with_collisions_needs_none(tmp_path, collides, found):
+    parts = [
+        LINK.format(n, SHAPES["visual"] + SHAPES["collision"] * (n in collides)) for n in "abc"
+    ]
+    parts += [JOINT.format("1", "continuous", "a", "b", '<origin xyz="1 0 0"/>')]
+    parts += [JOINT.format("2", "continuous", "b", "c", '<origin xyz="1 0 0"/>')]
+    rules = ("missing-collision", "odd-link-without-collision")
+    named = [one.name for rule in rules for one in find(tmp_path, rule, *parts)]
+    assert sorted(name for name in named if name in found) == found
+    assert len([*find(tmp_path, rules[0], *parts)]) <= len(found)
+
+
+@pytest.mark.parametrize(("name", "count"), [("chest_fake_x", 0), ("chest", 1)])
+def test_a_tiny_sphere_of_a_helper_link_is_not_a_body(tmp_path, name, count):
+    ball = '<{}><geometry><sphere radius="0.0005"/></geometry></{}>'
+    parts = [
+        LINK.format("base", BODY.format(mass=1, moment=0.01)),
+        LINK.format(name, BODY.format(mass=0.01, moment=1e-4) + ball.format(*["visual"] * 2)),
+        JOINT.format("j", "continuous", "base", name, ""),
+    ]
+    assert len(find(tmp_path, "implausible-density", *parts)) == count
+
+
+@pytest.mark.parametrize(("root", "count"), [("world", 0), ("base", 1)])
+def test_the_moments_of_a_link_that_only_slides_in_the_world_are_not_used(tmp_path, root, count):
+    parts = [LINK.format(root, ""), LINK.format("slider", BODY.format(mass=1, moment=1))]
+    parts.append(JOINT.format("x", "prismatic", root, "slider", TURNS))
+    assert len(find(tmp_path, "placeholder-inertia", *parts)) == count
+
+
+@pytest.mark.parametrize(("upper", "count"), [("1", 0), ("0.5", 1)])
+def test_a_follower_that_reaches_what_its_leader_asks_need_not_be_mirrored(tmp_path, upper, count):
+    from urdftool.model.load import load
+    from urdftool.rules.joint.sides import _covers_demand
+
+    limit = '<limit lower="{}" upper="{}" effort="1" velocity="1"/>'
+    parts = [LINK.format(name, "") for name in "abc"]
+    parts.append(JOINT.format("one", "revolute", "a", "b", limit.format(-0.7, 0)))
+    follows = limit.format(-0.1, upper) + '<mimic joint="one" multiplier="-1"/>'
+    parts.append(JOINT.format("two", "revolute", "a", "c", follows))
+    path = tmp_path / "r.urdf"
+    path.write_text(f'<robot name="r">{"".join(parts)}</robot>', "utf-8")
+    robot = load(path)
+    assert _covers_demand(robot, robot.joint["two"], (-0.1, float(upper))) is (count == 0)
+
+
+@pytest.mark.parametrize(("velocity", "severity"), [("0", "info"), ("1", "warning")])
+def test_a_joint_that_is_locked_on_purpose_is_one_info(tmp_path, velocity, severity):
+    limit = f'<limit lower="0" upper="0" effort="0" velocity="{velocity}"/>'
+    parts = [*map(LINK.format, "ab", ["", ""]), JOINT.format("j", "revolute", "a", "b", limit)]
+    assert find(tmp_path, "zero-velocity-limit", *parts) == []
+    (found,) = find(tmp_path, "locked-by-limits", *parts)
+    assert found.severity.label == severity
+
+
+@pytest.mark.parametrize(("name", "count"), [("libgazebo_ros_control.so", 1), ("libx.so", 0)])
+def test_a_transmission_that_nothing_reads_needs_no_prefix(tmp_path, name, count):
+    joint = '<joint name="j"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>'
+    part = f'<transmission name="t">{joint}</transmission>'
+    part += f'<gazebo><plugin name="p" filename="{name}"/></gazebo>'
+    (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="a"/>{part}</robot>', "utf-8")
+    rule = "unprefixed-hardware-interface"
+    assert len(check(tmp_path / "r.urdf", select=[rule], targets=["ros1"])) == count

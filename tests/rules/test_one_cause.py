@@ -194,7 +194,7 @@ def test_transmissions_of_several_joints_have_no_first_interface(write, joints, 
     assert len(found) == count
 
 
-@pytest.mark.parametrize(("faces", "count"), [(199, 0), (200, 1)])
+@pytest.mark.parametrize(("faces", "count"), [(5000, 0), (5001, 1)])
 def test_a_visual_mesh_of_few_triangles_may_collide(write, faces, count):
     write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + "f 1 2 3\n" * faces)
     path = write("r.urdf", meshes(1, "part.obj"))

@@ -258,10 +258,12 @@ def _check_description(
     failures: list[UrdftoolError],
     options: Options,
 ) -> None:
+    guessed: frozenset[str] = frozenset()
     if settings.targets is not None:
         targets = settings.targets
     elif robot is not None:
-        targets, report.overruled, _ = infer_targets(robot, description)
+        targets, report.overruled, guesses = infer_targets(robot, description)
+        guessed = frozenset(guess.target for guess in guesses)
     else:
         targets = frozenset()
     report.targets = targets
@@ -281,6 +283,7 @@ def _check_description(
         "robot": robot,
         "description": description,
         "targets": targets,
+        "guessed": guessed,
     }
     ran: set[str] = set()
     origins: dict[int, Any] = {}

@@ -63,12 +63,13 @@ def missing_collision(
     link needs no collision (a sticker, a cable), state it in a comment,
     ``urdftool-ignore[missing-collision]``.
 
-    Not reported are links that the collision of a link fixed to them covers, that rotate inside
-    the collision of their parent body, that slide along a rail that goes through them, or that are
-    such a rail, whose collision would block the joint. Links of at most ``smallest`` [m], which
-    mark frames, links named virtual or dummy, and those with fully transparent visuals are
-    skipped, and so is a single link without mass, such as the marker of a goal. Links smaller than
-    ``small`` [m], and those inside the bounding box of their rigid body's collisions, are an info.
+    Not reported are links that the collision of a link fixed to them covers, that rotate inside the
+    collision of their parent body, that slide along a rail that goes through them, or that are such
+    a rail, whose collision would block the joint. Neither are links between bodies with collisions,
+    as in robots of few collision shapes, links smaller than ``small`` [m], and those inside the
+    bounding box of their rigid body's collisions. Links of at most ``smallest`` [m], which mark
+    frames, links named virtual or dummy, and those with fully transparent visuals are skipped, and
+    so is a single link without mass, such as the marker of a goal.
     """
     if len(robot.links) == 1 and not robot.links[0].mass:
         return  # a marker, such as a goal
@@ -87,13 +88,13 @@ def missing_collision(
             continue
         if _is_rail(robot, link):
             continue
-        is_minor = sizes[link.name] < small or _is_enveloped(robot, link)
+        if sizes[link.name] < small or _is_enveloped(robot, link) or _is_between(robot, link):
+            continue
         yield Problem(
             link,
             f"link '{link.name}' has a visual but no collision; "
             "add a <collision>, best with a primitive shape",
             effects=[_LOAD, "moveit", *["mujoco"] * discarded],
-            severity=INFO if is_minor else None,
             group="{count} links have a visual but no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
         )
@@ -291,6 +292,25 @@ def _is_enveloped(robot: Robot, link: Link) -> bool:
     solid = [(other, at) for other, at in reach.get_attached(link) if other.collisions]
     box = reach.get_body_box(link, "collisions", solid) if seen is not None and solid else None
     return box is not None and seen is not None and _contains_box(box, seen)
+
+
+def _is_between(robot: Robot, link: Link) -> bool:
+    """Tell whether a body moves others, and its own links or bodies on both sides have collisions.
+
+    Then the world makes contact with these first; the ends of a robot make contact with it.
+    """
+    own = robot.tree.bodies.get(link.name)
+    if own is None:
+        return False
+    joint = robot.tree.get_parent_joint(own)
+    above = robot.tree.bodies.get(joint.parent) if joint is not None else None
+    below = {
+        robot.tree.bodies.get(joint.child)
+        for joint in robot.moving_joints
+        if robot.tree.bodies.get(joint.parent) == own
+    }
+    solid = {robot.tree.bodies.get(one.name) for one in robot.links if one.collisions}
+    return not solid.isdisjoint(below) and not solid.isdisjoint((own, above))
 
 
 def _is_rotating_inside(robot: Robot, link: Link) -> bool:

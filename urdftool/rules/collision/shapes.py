@@ -48,7 +48,8 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
     Usually it is the 0 0 0 of a placeholder, or a negative difference in a macro. Readers that
     accept it neither show it nor make contact with it. MuJoCo rejects a robot with such a
     collision; for a visual it does so only with ``<compiler discardvisual="false"/>``, and without
-    that a visual is a warning. Drake accepts a sphere of radius 0, but no other shape.
+    that a visual is a warning, or an info for a size of 0 0 0 on a frame without mass. Drake
+    accepts a sphere of radius 0, but no other shape.
     """
     keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
@@ -63,6 +64,7 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
             if values is None or min(values) > 0:
                 continue
             rejected = kind == "collision" or keeps
+            is_frame = not any(values) and not link.mass
             aborts = geometry.tag != "sphere" or min(values) < 0
             yield Problem(
                 link,
@@ -71,7 +73,7 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
                 at=geometry.locate_attribute(name),
                 data={"attribute": name, "value": text, "collides": kind == "collision"},
                 alike=(name, geometry.tag, kind),
-                severity=ERROR if rejected else WARNING,
+                severity=ERROR if rejected else INFO if is_frame else WARNING,
                 effects=[*["mujoco"] * rejected, *["drake"] * aborts, _SILENT],
             )
 

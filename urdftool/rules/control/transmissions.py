@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot, Transmission
+from ...source.description import Description
 from ..fix import (
     FixContext,
     Proposal,
@@ -21,6 +22,7 @@ from ..fix import (
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest, suggest_name
+from .dependence import OF_CLASSIC, depends_on_control
 
 APPLIES_TO = ("transmission", "plugin")
 
@@ -70,12 +72,16 @@ def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
     },
     group="robot",
 )
-def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
+def unprefixed_hardware_interface(robot: Robot, description: Description) -> Iterator[Problem]:
     """A hardware interface has no prefix ``hardware_interface/``.
 
     ``EffortJointInterface`` alone is deprecated since 2014. ``gazebo_ros_control`` accepts it with
-    a warning for each joint; other hardware compares the full name and does not find it.
+    a warning for each joint; other hardware compares the full name and does not find it. Reported
+    only for a robot with that plugin, or whose package depends on it: otherwise the transmission is
+    left over, and nothing reads it.
     """
+    if not (_has_control_plugin(robot) or depends_on_control(description)):
+        return
     for transmission in robot.transmissions:
         if not transmission.name:
             continue  # another rule reports that it is not read
@@ -91,6 +97,10 @@ def unprefixed_hardware_interface(robot: Robot) -> Iterator[Problem]:
                         group="{count} hardware interfaces have no prefix hardware_interface/, "
                         "in the transmissions {names}",
                     )
+
+
+def _has_control_plugin(robot: Robot) -> bool:
+    return any(name in plugin.filename for plugin in robot.plugins for name in OF_CLASSIC)
 
 
 @unprefixed_hardware_interface.fix(SAFE)

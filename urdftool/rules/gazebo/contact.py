@@ -21,7 +21,7 @@ _CASTER = re.compile(r"caster|castor", re.IGNORECASE)
 _FOOT = re.compile(r"(^|[_\d])(foot|feet|toe)([_\d]|$)", re.IGNORECASE)
 _FINGER = re.compile(r"finger|(^|_)(gripper_)?pad(_|\d|$)|(^|_)jaw(_|\d|$)", re.IGNORECASE)
 _GRIPS = re.compile(r"finger|thumb|jaw|knuckle|claw|pad(_|\d|$)", re.IGNORECASE)
-_GRIPPER_JOINT = re.compile(_GRIPS.pattern + "|grip", re.IGNORECASE)
+GRIPPER_PART = re.compile(_GRIPS.pattern + "|grip", re.IGNORECASE)
 _NOT_WHEEL = re.compile(
     r"lidar|laser|scan|radar|rotor|prop|fan|thrust|impeller|camera|head|yaw|steer", re.IGNORECASE
 )
@@ -61,7 +61,7 @@ def _is_gripping(robot: Robot, link: Link) -> bool:
     for member in members:
         joint = robot.tree.get_parent_joint(member.name)
         if joint is not None and not joint.is_fixed:
-            if _GRIPPER_JOINT.search(joint.name) or _GRIPS.search(member.name):
+            if GRIPPER_PART.search(joint.name) or _GRIPS.search(member.name):
                 return True
         for below in robot.tree.get_child_joints(member.name):
             if not below.is_fixed and _GRIPS.search(f"{below.name} {below.child}"):

@@ -9,7 +9,7 @@ from ...model.elements import Joint, Link, Robot
 from ...model.settings import is_set
 from ...source.description import Description
 from ...source.document import parse
-from ...source.nearby_files import read_optional_document
+from ..control.dependence import OF_GAZEBO, depends_on_control
 from ..cross_file_references import check_not_included
 from ..fix import (
     Change,
@@ -23,6 +23,7 @@ from ..fix import (
 from ..joint.range import is_locked
 from ..renaming import get_part, rename_part
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule
+from ..tree.mounted import is_arm
 from ..words import quote
 from .wheel_pair import find_wheel_pair
 
@@ -133,16 +134,20 @@ def rename_reserved(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def missing_control_plugin(
-    robot: Robot, description: Description, targets: frozenset[str]
+    robot: Robot, description: Description, targets: frozenset[str], guessed: frozenset[str]
 ) -> Iterator[Problem]:
     """Joints move, but no plugin controls them or publishes their state.
 
     In Gazebo a joint without a plugin moves freely: an arm collapses after spawning. Without joint
     states RViz has no transforms of the links. Joints with equal limits are ignored, and robots
     with a part for Gazebo in a xacro condition are not reported. For a robot with two wheels on one
-    axle about its y axis, the message has the parameters of a differential drive. It is an info
-    for a file without plugins, transmissions and ``<ros2_control>``: a world or a wrapper may add
-    the plugin.
+    axle about its y axis, the message has the parameters of a differential drive.
+
+    A file without plugins, transmissions and ``<ros2_control>`` is not reported, because a world,
+    a wrapper or a program may add the plugin, nor one without plugins that only a ``<gazebo>`` tag
+    shows to be for Gazebo: unless its package depends on a control plugin of
+    Gazebo (an info), or it has such a pair of wheels and more than a ``<gazebo>`` tag shows that it
+    is for new Gazebo.
     """
     joints = [
         joint
@@ -163,8 +168,11 @@ def missing_control_plugin(
     reported = any(_REPORTS.search(text) for text in acting)
     if any(not _REPORTS.search(text) for text in acting):
         return
-    pair = find_wheel_pair(robot) if "gz" in targets else None
-    if reported and pair is None:
+    pair = find_wheel_pair(robot) if "gz" in targets - guessed else None
+    controls = robot.transmissions or robot.ros2_controls
+    is_named = not targets.isdisjoint(GAZEBO) and targets.isdisjoint(guessed)
+    is_driven = bool(plugins or (is_named and controls)) or pair is not None
+    if (reported and pair is None) or not (is_driven or depends_on_control(description, OF_GAZEBO)):
         return
     if pair is not None:
         joints = [pair.left, pair.right]
@@ -184,7 +192,6 @@ def missing_control_plugin(
     if pair is not None:
         data |= {"wheel_separation": pair.separation, "wheel_radius": pair.radius}
     message = f"{which} {names} {verb}, but no Gazebo plugin {acts}; add {remedy}"
-    is_driven = bool(plugins or robot.transmissions or robot.ros2_controls) or pair is not None
     yield Problem(robot, message, data=data, severity=None if is_driven else INFO)
 
 
@@ -200,7 +207,7 @@ def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None
         return None
     check_not_included(context)
     if "gz" not in context.targets:
-        if not context.robot.transmissions or not _depends_on_control(context.description):
+        if not context.robot.transmissions or not depends_on_control(context.description):
             return None
         control = '\t<plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/>'
         lines = ("<gazebo>", control, "</gazebo>")
@@ -225,18 +232,6 @@ def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None
         what = " and ".join(filter(None, ("a differential drive", what)))
     return unsafe(
         f"add {what}", append_child(context.robot.element, "<gazebo>", *systems, "</gazebo>")
-    )
-
-
-def _depends_on_control(description: Description) -> bool:
-    """Tell whether the package of a description depends on gazebo_ros_control."""
-    own = description.packages.own
-    if own is None:
-        return False
-    manifest = read_optional_document(description.workspace, own[1] / "package.xml")
-    return manifest is not None and any(
-        one.tag.endswith("depend") and one.text.strip() == "gazebo_ros_control"
-        for one in manifest.root.children
     )
 
 
@@ -268,21 +263,12 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
 
     Gazebo loads the root of a robot as a free body, so an arm without wheels or legs falls over
     when it moves. Add a link named ``world`` and a fixed joint. A robot with root
-    ``base_footprint``, or with a wheel or caster by name, is mobile and not reported.
+    ``base_footprint``, or with a wheel, caster or leg by name, is mobile and not reported.
     """
     root = robot.tree.root
-    if root is None or root.name == "world" or any(j.type == "floating" for j in robot.joints):
+    if root is None or root.name == "world" or is_set(robot.settings, "static"):
         return
-    if root.name == "base_footprint" or any(map(_is_wheel, (*robot.link, *robot.joint))):
-        return
-    if is_set(robot.settings, "static"):
-        return
-    arms = [joint for joint in robot.joints if joint.type in ("revolute", "continuous")]
-    roots = {name for name, body in robot.tree.bodies.items() if body == root.name}
-    starts = [joint for joint in robot.moving_joints if joint.parent in roots]
-    root_mass = sum(robot.link[name].mass for name in roots)
-    moved = sum(link.mass for link in robot.links) - root_mass
-    if len(starts) == 1 and len(arms) >= 4 and root_mass < 2 * moved:
+    if is_arm(robot):
         yield Problem(
             robot,
             f"root '{root.name}' of the arm '{robot.name}' is not fixed to the world; add a link "
@@ -312,7 +298,3 @@ def anchor_root(problem: Problem, context: FixContext) -> Proposal | None:
         ),
     )
     return unsafe("fix it to a link 'world'", Change("first", robot.element, blocks=blocks))
-
-
-def _is_wheel(name: str) -> bool:
-    return any(word in name.lower() for word in ("wheel", "caster", "castor"))

@@ -47,13 +47,16 @@ _WITHOUT_BLOCK = {
     effects=_WITHOUT_BLOCK,
     group="robot",
 )
-def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+def missing_gazebo_tags(
+    robot: Robot, targets: frozenset[str], guessed: frozenset[str]
+) -> Iterator[Problem]:
     """A link has no ``<gazebo>`` block although it needs one.
 
     URDF has no friction, and Gazebo Classic ignores URDF colors: ``<gazebo reference="the link">``
-    sets both. A link needs the block for friction if it slides or grips (a caster or finger); the
-    default of 1 is right for wheels and feet of rubber. In Gazebo Classic a link with a colored
-    visual needs it too; this case is an info, and markers of at most 1 cm are ignored.
+    sets both. A caster that slides needs the block for its friction; the default of 1 is right for
+    wheels, feet and fingers of rubber. In Gazebo Classic a link with a colored visual needs it too;
+    this case is an info, and markers of at most 1 cm are ignored. It is reported only if a plugin,
+    a package.xml, a launch file or ``--target`` names Gazebo Classic.
     ``missing-friction`` and ``missing-gazebo-material`` report incomplete blocks. Robots for other
     targets are not reported.
     """
@@ -65,10 +68,12 @@ def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
     for link in robot.links:
         if robot.extensions.get(link.name) or link.name in meant:
             continue
-        role = None if _has_from_body(robot, link, _has_friction) else _get_role(robot, link)
+        role = _get_role(robot, link)
+        if role != "caster" or _has_from_body(robot, link, _has_friction):
+            role = None
         needs = [_FRICTION[role]] if role else []
         cases = ["without friction"] if role else []
-        if "gazebo-classic" in targets and _is_shown_gray(robot, link, colors):
+        if "gazebo-classic" in targets - guessed and _is_shown_gray(robot, link, colors):
             needs.append("<material>, because Gazebo Classic ignores the colors of a URDF")
             cases.append("without a color")
         if needs:

@@ -18,7 +18,7 @@ from ..words import join_some
 from .bodies import compute_mass, find_massless_pairs, find_rigid_bodies
 from .density import GOLD
 from .light_body import find_light_body
-from .solids import compute_volume
+from .solids import compute_solid_moments, compute_volume, is_helper
 from .tensors import has_written_inertial
 
 _AS_PART = ("gz, gazebo-classic, pinocchio (part)", "mujoco (part)", "drake (part)")
@@ -296,10 +296,12 @@ def implausible_density(
 
     For a mesh or several shapes, the density in their bounding box counts: a body of steel has at
     most ``most_of_box``, and air about ``least_possible``. It is only an info if a material could
-    have the density, for links smaller than ``small`` [m], which mostly mark
-    frames, and for links of up to ``dummy`` [kg] that are fixed to others, as sensor frames are for
-    Gazebo. Small links that are fixed to links of ten times their mass are skipped. More than
-    ``together`` infos are reported as one finding.
+    have the density, for links smaller than ``small`` [m], which mostly mark frames, and for links
+    of up to ``dummy`` [kg] that are fixed to others, as sensor frames are for Gazebo. Not reported
+    are links named fake, dummy, marker or virtual of at most 1 cm, and a root whose mass is a power
+    of ten of at least 100 kg with the inertia of that mass: a stand. Small links that are fixed to
+    links of ten times their mass are skipped. More than ``together`` infos are reported as one
+    finding.
     """
     bounds = _DensityBounds(least, most, least_possible, most_possible, small, dummy, most_of_box)
     found = list(_find_densities(robot, bounds))
@@ -364,6 +366,8 @@ def _find_densities(
         density, in_box = _compute_density(reach.get_link_box(link), link, mass)
         if any(find_shapes_in_millimeters(link)) or _is_incomplete(link):
             continue
+        if is_helper(link) or _is_anchor(robot, link):
+            continue
         most = bounds.most_of_box if in_box else bounds.most
         if density is None or bounds.least <= density <= most:
             continue
@@ -403,6 +407,24 @@ def _is_marker(reach: LinkExtents, link: Link, mass: float, small: float) -> boo
     if box is None or max(box.size) >= small:
         return False
     return sum(other.mass for other, _ in reach.get_attached(link)[1:]) >= 10 * mass
+
+
+def _is_anchor(robot: Robot, link: Link) -> bool:
+    """Tell whether a root of a round mass, from which its inertia was computed, is a stand."""
+    if robot.tree.get_parent_joint(link.name) is not None or link.mass < _HEAVY_STAND:
+        return False
+    power = math.log10(link.mass)
+    solid, inertial = compute_solid_moments(link), link.inertial
+    if abs(power - round(power)) > 1e-9 or solid is None or inertial is None:
+        return False
+    written = inertial.inertia.moments if inertial.inertia is not None else ()
+    return bool(written) and all(
+        0.5 * right <= one <= 2 * right for one, right in zip(written, solid, strict=True)
+    )
+
+
+_HEAVY_STAND = 100.0
+"""[kg] A root of this mass and more is a stand if its mass is a power of ten. Chosen, no source."""
 
 
 def _is_fixed(robot: Robot, link: Link) -> bool:

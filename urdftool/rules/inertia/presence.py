@@ -16,6 +16,7 @@ from ..fix import (
     remove_element,
     unsafe,
 )
+from ..gazebo.contact import GRIPPER_PART
 from ..gazebo.lumped_model import find_kept_links
 from ..rule import (
     ANY_FORMAT,
@@ -30,6 +31,7 @@ from ..rule import (
     rule,
 )
 from ..symmetry import find_twin
+from ..tree.mounted import is_arm
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
 from .light_body import find_light_body
@@ -386,11 +388,14 @@ def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
 
     PyBullet gives such a root 1 kg, and with ``URDF_USE_INERTIA_FROM_FILE`` 1 kg·m² about each
     axis, which makes a robot with a free base heavier. Therefore neither the remedy nor the fix is
-    offered with the target ``pybullet``.
+    offered with the target ``pybullet``. Arms and grippers are not reported, because their root is
+    mounted: its mass has no part in their dynamics.
     """
     root = robot.tree.root
     if root is None or len(robot.tree.roots) > 1 or _is_broken(robot):
         return  # fixing these may change the root
+    if is_arm(robot) or _is_gripper(robot):
+        return
     if root.inertial is not None and root.inertial.mass != 0.0:
         remedy, hint = "; add a root link without one above it, on a fixed joint", _IN_PYBULLET
         if root.name == "world" or is_needless(robot, root):
@@ -404,6 +409,12 @@ def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
             f"root link '{root.name}' has an inertia, which KDL does not support{remedy}",
             hint=hint,
         )
+
+
+def _is_gripper(robot: Robot) -> bool:
+    """Tell whether each moving joint is that of a finger."""
+    links = [(joint.name, joint.child) for joint in robot.moving_joints]
+    return bool(links) and all(any(map(GRIPPER_PART.search, names)) for names in links)
 
 
 _IN_PYBULLET = (

@@ -21,6 +21,7 @@ from ...source.document import Element
 from ..fix import FixContext, Proposal
 from ..mesh.link_extents import get_extents
 from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
+from ..tree.mounted import is_base_of_arm
 from .bodies import find_rigid_bodies, find_slight_parts
 from .corrections import (
     MASS_IN_DOUBT,
@@ -61,13 +62,16 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
     keep a simulation stable, so these are reported only if the value is too large: links of a few
     millimeters, links without geometry, and links of up to ``tiny`` [m] that are fixed to a
     heavier link. Where all tensors of the robot are rounded to the same number of decimals, as CAD
-    programs do, 0.0001 may be the rounded moment of a small link and is not reported.
+    programs do, 0.0001 may be the rounded moment of a small link and is not reported. Neither are
+    the root of an arm, which is mounted, and links that only slide relative to the world.
     """
     slight = find_slight_parts(robot)
     whole: dict[str, list[Link]] | None = None
     for link, inertial, six in get_tensors(robot):
         if not is_placeholder(link, six) or link.mass < 0 or link.name in slight:
             continue  # negative-mass reports the mass
+        if is_base_of_arm(robot, link) or _is_only_sliding(robot, link):
+            continue
         moment = six[0]
         if is_last_decimal(robot, moment) and _may_round(robot, link, moment):
             continue
@@ -136,6 +140,16 @@ def _may_round(robot: Robot, link: Link, moment: float) -> bool:
     a, b, c = box.size
     largest = link.mass / 12 * (a * a + b * b + c * c)
     return moment / _ROUNDED <= largest <= moment * _ROUNDED
+def _is_only_sliding(robot: Robot, link: Link) -> bool:
+    """Tell whether no joint between the link ``world`` and a link rotates it."""
+    name, seen = link.name, set[str]()
+    while name != "world" and name not in seen:
+        seen.add(name)
+        joint = robot.tree.get_parent_joint(name)
+        if joint is None or joint.type not in ("fixed", "prismatic"):
+            return False
+        name = joint.parent
+    return name == "world"
 
 
 def _is_frame(robot: Robot, link: Link, body: list[Link], tiny: float) -> bool:
@@ -368,9 +382,10 @@ def radius_of_gyration(
 
     The radius of gyration is the square root of the largest moment of inertia divided by the mass:
     a thin ring of that radius has the same moment about its axis. Above 1 m it exceeds most robots,
-    below 1 mm it is that of a pinhead. The usual cause is kg·mm² in place of kg·m². Links of known
-    size are checked by ``inertia-exceeds-geometry``; tensors that are zero or negative about an
-    axis by other rules.
+    below 1 mm it is that of a pinhead. The usual cause is kg·mm² in place of kg·m². A link is not
+    reported whose known shapes and joints are as far apart as the inertia requires, as those of a
+    car. Links of known size are checked by ``inertia-exceeds-geometry``; tensors that are zero or
+    negative about an axis by other rules.
     """
     reach = get_extents(robot)
     slight = find_slight_parts(robot)
@@ -389,6 +404,8 @@ def radius_of_gyration(
         around = reach.get_body_box(link)
         if around is not None and radius <= math.dist(*around):
             continue  # the inertia is that of the whole body
+        if radius <= _measure_known_size(robot, link) / 2:
+            continue
         data: dict[str, object] = {"radius": radius}
         if radius > largest:
             remedy = ""
@@ -407,6 +424,19 @@ def radius_of_gyration(
             effects=_select_readers(six),
             data=data,
         )
+
+
+def _measure_known_size(robot: Robot, link: Link) -> float:
+    """Measure the diagonal of the box of a link's known shapes and of its joints [m]."""
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    boxes = [get_extents(robot).get_shape_box(one) for one in shapes]
+    points = [point for box in boxes if box is not None for point in box]
+    joints = robot.tree.get_child_joints(link.name)
+    points += [make_pose(joint.origin).translation for joint in joints]
+    if not points:
+        return 0.0
+    columns = list(zip(*points, strict=True))
+    return math.dist([min(one) for one in columns], [max(one) for one in columns])
 
 
 def _may_be_kg_mm2(radius: float) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 
 from ...mechanics.tensor import SymmetricTensor, rotate_tensor
@@ -143,6 +144,16 @@ def is_dummy(link: Link, *, largest: float = 0.005) -> bool:
     """
     box = compute_box(link)
     return box is not None and max(box.size) <= largest
+
+
+_HELPER = re.compile(r"fake|dummy|marker|virtual", re.IGNORECASE)
+_MARKER = 0.01
+"""[m] Geometry that marks the place of a link without a body is no larger. Chosen, no source."""
+
+
+def is_helper(link: Link) -> bool:
+    """Tell whether a link only helps to build the tree: so it is named, and its shape is tiny."""
+    return _HELPER.search(link.name) is not None and is_dummy(link, largest=_MARKER)
 
 
 def get_solid_kind(link: Link) -> str:

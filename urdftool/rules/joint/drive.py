@@ -80,10 +80,10 @@ def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
     """The velocity limit of a moving joint is 0.
 
     Gazebo then does not allow the joint to move. MoveIt takes it as a missing limit and cannot time
-    a trajectory.
+    a trajectory. ``locked-by-limits`` reports a joint whose lower and upper limit are equal.
     """
     for joint, limit in _iterate_driven(robot):
-        if limit.velocity == 0.0:
+        if limit.velocity == 0.0 and not is_locked(joint):
             yield Problem(
                 joint,
                 f"velocity limit of joint '{joint.name}' is 0, so it must not move; "
@@ -149,12 +149,13 @@ def implausible_velocity(
     The number is usually in degrees per second or revolutions per minute, or it is a placeholder
     for no limit, such as 1000 or 1e6. Planners time trajectories by it. A joint whose lower and
     upper limit are equal is not reported, neither is a passive joint with effort limit 0, or a
-    joint that ros2_control only measures. ``fastest_turn`` [rad/s] and ``fastest_slide`` [m/s] are
-    the highest plausible velocities. Where more than ``together`` joints have the same value, they
-    are one finding.
+    joint that ros2_control only measures, or a placeholder for no limit where no transmission,
+    ``<ros2_control>`` or plugin drives a joint. ``fastest_turn`` [rad/s] and ``fastest_slide``
+    [m/s] are the highest plausible velocities. Where more than ``together`` joints have the same
+    value, they are one finding.
     """
     found = []
-    measured = find_measured_joints(robot)
+    measured, actuated = find_measured_joints(robot), find_actuated_joints(robot)
     for joint, limit in _iterate_driven(robot):
         if joint.type == "continuous" or limit.velocity is None or is_locked(joint):
             continue
@@ -162,6 +163,8 @@ def implausible_velocity(
             continue
         fastest = fastest_slide if joint.type == "prismatic" else fastest_turn
         if limit.velocity > fastest:
+            if not actuated and _is_endless(limit.velocity):
+                continue
             excess = _describe_excess(limit.velocity, fastest)
             what = f"{limit.velocity:g} {_get_units(joint)[1]}, {excess}"
             found.append(

@@ -15,7 +15,18 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, SAFE, UNSAFE, Problem, rule, select_holding
+from ..rule import (
+    ANY_FORMAT,
+    ERROR,
+    GAZEBO,
+    INFO,
+    ROS,
+    SAFE,
+    UNSAFE,
+    Problem,
+    rule,
+    select_holding,
+)
 from ..unexpanded import is_unexpanded
 from ..xml.vocabulary_table import suggest_word
 
@@ -126,23 +137,34 @@ _PLANAR = {
     raised=dict.fromkeys(GAZEBO, ERROR),
     effects=_PLANAR,
 )
-def planar_or_floating(robot: Robot) -> Iterator[Problem]:
+def planar_or_floating(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A joint is planar or floating.
 
     sdformat removes the joint and keeps a pose relative to it, so Gazebo rejects the model.
     robot_state_publisher publishes no transform for a floating joint, and a fixed one for a planar
-    joint. MuJoCo loads both types; Drake loads planar joints.
+    joint. MuJoCo loads both types; Drake loads planar joints. Reported are robots for Gazebo or
+    ROS, and joints that MuJoCo or Drake rejects: a floating joint above the root, and a planar one
+    with a damping.
     """
+    concerned = not targets.isdisjoint((*GAZEBO, *ROS))
     for joint in robot.joints:
-        if joint.type in ("planar", "floating"):
+        if joint.type not in ("planar", "floating"):
+            continue
+        conditions = _list_conditions(robot, joint)
+        if concerned or _is_rejected(conditions):
             yield Problem(
                 joint,
                 f"joint '{joint.name}' is {joint.type}: Gazebo rejects it, and "
                 "robot_state_publisher does not move it; use revolute and prismatic joints, or "
                 "leave the root free",
                 at=joint.locate_attribute("type"),
-                effects=select_holding(_PLANAR, *_list_conditions(robot, joint)),
+                effects=select_holding(_PLANAR, *conditions),
             )
+
+
+def _is_rejected(conditions: list[str]) -> bool:
+    """Tell whether MuJoCo or Drake rejects a robot with such a joint."""
+    return {"floating", "above the root"} <= set(conditions) or "one damping" in conditions
 
 
 def _list_conditions(robot: Robot, joint: Joint) -> list[str]:

@@ -144,7 +144,8 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
     """The lower and upper limit of a joint are equal.
 
     The joint is meant not to move. MuJoCo ignores such limits, so the joint turns freely, and
-    planners have a variable without effect. A joint that does not move should be ``fixed``.
+    planners have a variable without effect. A joint that does not move should be ``fixed``. It is
+    an info if the velocity limit is 0 too, which shows that it is intended.
     """
     for joint, limit, lower, upper in _iterate_bounded(robot):
         if lower == upper:
@@ -157,6 +158,7 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
                 f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; {advice}",
                 at=limit.locate_attribute("upper"),
                 alike=bool(named),
+                severity=INFO if joint.limit and joint.limit.velocity == 0.0 else None,
                 data={"position": lower, "named_by": [name for name, _ in named]},
             )
 

@@ -71,7 +71,8 @@ def limits_not_mirrored(
     Left and right are recognized by link names. If both axes are mirrored, the limits must be
     equal; if one axis is reversed, the limits must be negated and swapped. Usually one axis or one
     pair of limits has the wrong sign. Gripper joints with equal limits are copies, and not
-    reported, neither are displaced joints and joints that move no mass or geometry. ``tolerance``
+    reported, neither are displaced joints, joints that move no mass or geometry, and a mimic joint
+    whose range has all positions that its leader asks of it. ``tolerance``
     [rad or m] is the difference that is ignored. More than ``together`` such joints are one
     finding.
     """
@@ -101,6 +102,17 @@ def _is_massless_frame(robot: Robot, link: Link) -> bool:
     )
 
 
+def _covers_demand(robot: Robot, joint: Joint, limits: tuple[float, float]) -> bool:
+    """Tell whether the range of a mimic joint [rad or m] has all positions that its leader asks."""
+    mimic = joint.mimic
+    leader = robot.joint.get(mimic.joint) if mimic is not None else None
+    demand = _get_range(leader) if leader is not None else None
+    if mimic is None or demand is None:
+        return False
+    ends = [mimic.multiplier * end + mimic.offset for end in demand]
+    return limits[0] <= min(ends) and max(ends) <= limits[1]
+
+
 def _find_asymmetric_ranges(
     robot: Robot, found: Sides, tolerance: float
 ) -> Iterator[tuple[Pair, str, tuple[float, float]]]:
@@ -122,6 +134,8 @@ def _find_asymmetric_ranges(
         opposite = (-left[1], -left[0])
         expected, other = (left, opposite) if alike else (opposite, left)
         if _is_near(right, expected, tolerance):
+            continue
+        if _covers_demand(robot, pair.right_joint, right):
             continue
         if _is_near(right, left, tolerance) and _GRIPPER.search(pair.right_joint.name):
             continue

@@ -85,6 +85,7 @@ def disabled_pair_can_touch(robot: Robot, description: Description) -> Iterator[
 @rule(
     WARNING,
     on=_ON,
+    default=False,
     effects={
         "moveit": "does not check the two links against each other",
     },
@@ -94,7 +95,9 @@ def adjacent_through_bare_link(robot: Robot, description: Description) -> Iterat
 
     MoveIt's Setup Assistant lets a link without geometry connect all its neighbors with each other.
     So two arms on a bare torso are adjacent, and two fingers on a bare palm, and are not checked
-    against each other. Links that are proved never to touch are no finding. Requires python-fcl.
+    against each other. Links that are proved never to touch are no finding. Not enabled by default,
+    because such a pair usually has to be disabled, and only its reason is imprecise. Requires
+    python-fcl.
     """
     from ...srdf.content import format_positions
     from ...srdf.existing import BARE

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Robot
+from ..inertia.solids import is_helper
 from ..rule import ANY_FORMAT, INFO, WARNING, Problem, rule
 
 
@@ -23,8 +24,9 @@ def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) ->
     ODE, the engine of Gazebo Classic, solves joints iteratively and converges slowly for a light
     body between heavy ones: the joint stretches, shakes or breaks. From ``high`` on it is an
     info, from ``extreme`` on a warning. The ratio is the mass below the joint divided by that of
-    the body just above it; links on fixed joints count as one body. Light bodies without geometry
-    are skipped, because they are parts of a joint with several axes. New Gazebo, MuJoCo and
+    the body just above it; links on fixed joints count as one body. Light bodies without geometry,
+    or with tiny shapes on links named fake or dummy, are skipped, because they are parts of a joint
+    with several axes. New Gazebo, MuJoCo and
     PyBullet compute a tree of joints exactly.
     """
     bodies = robot.tree.body_links
@@ -37,9 +39,8 @@ def mass_ratio(robot: Robot, *, high: float = 100.0, extreme: float = 1000.0) ->
         above, under = robot.tree.bodies.get(joint.parent), robot.tree.bodies.get(joint.child)
         if above is None or under is None or robot.tree.get_parent_joint(above) is None:
             continue
-        if not any(
-            robot.link[name].visuals or robot.link[name].collisions for name in bodies[above]
-        ):
+        links = [robot.link[name] for name in bodies[above]]
+        if not any((one.visuals or one.collisions) and not is_helper(one) for one in links):
             continue
         light, heavy = mass[above], below[under]
         if light > 0 and heavy / light > high:

@@ -26,7 +26,9 @@ from ..unexpanded import is_unexpanded
 
 APPLIES_TO = ("visual", "collision")
 
-_ON_PURPOSE = re.compile(r"transparent|invisible|virtual|dummy|hidden|none", re.IGNORECASE)
+_ON_PURPOSE = re.compile(
+    r"transparent|invisible|virtual|dummy|fake|marker|hidden|none", re.IGNORECASE
+)
 
 
 @rule(
@@ -71,8 +73,8 @@ def fully_transparent(robot: Robot) -> Iterator[Problem]:
     """All visual geometry of a link is transparent.
 
     The fourth number of ``rgba`` is the opacity (alpha); geometry with 0 is invisible. Write 1 for
-    opaque. Links and materials whose name shows that it is intended (virtual, invisible,
-    transparent) are ignored.
+    opaque. Links and materials whose name shows that it is intended (virtual, dummy, fake, marker,
+    invisible, transparent) are ignored.
     """
     colors = {material.name: material for material in robot.materials if material.color}
     for link in robot.links:
