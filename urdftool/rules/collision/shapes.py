@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...model.bounds import has_extent
 from ...model.elements import Collision, Geometry, Link, Robot, UnknownShape, Visual
 from ...model.millimeters import find_shapes_in_millimeters
 from ...model.read import number, parse_numbers
@@ -64,7 +65,9 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
             if values is None or min(values) > 0:
                 continue
             rejected = kind == "collision" or keeps
-            is_frame = not any(values) and not link.mass
+            is_frame = not link.mass and not any(
+                map(_has_extent, [*link.visuals, *link.collisions])
+            )
             aborts = geometry.tag != "sphere" or min(values) < 0
             yield Problem(
                 link,
@@ -76,6 +79,10 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
                 severity=ERROR if rejected else INFO if is_frame else WARNING,
                 effects=[*["mujoco"] * rejected, *["drake"] * aborts, _SILENT],
             )
+
+
+def _has_extent(shape: Visual | Collision) -> bool:
+    return shape.geometry is not None and has_extent(shape.geometry)
 
 
 def _get_size(geometry: Geometry, name: str) -> str | None:

@@ -45,11 +45,8 @@ def lower_above_upper(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     """
     for joint, limit, lower, upper in _iterate_bounded(robot):
         if lower > upper:
-            meant = (
-                is_pybullet_unlimited(lower, upper)
-                and targets
-                and targets <= {"pybullet", "mujoco"}
-            )
+            only_these = targets and targets <= {"pybullet", "mujoco"}
+            meant = is_pybullet_unlimited(lower, upper) and only_these
             yield Problem(
                 joint,
                 _describe_inverted_limit(joint, lower, upper),
@@ -143,28 +140,27 @@ def is_locked(joint: Joint) -> bool:
 def locked_by_limits(robot: Robot) -> Iterator[Problem]:
     """The lower and upper limit of a joint are equal.
 
-    The joint is meant not to move. MuJoCo ignores such limits, so the joint turns freely, and
-    planners have a variable without effect. A joint that does not move should be ``fixed``. It is
-    an info if the velocity limit is 0 too, which shows that it is intended.
+    MuJoCo ignores such limits, so the joint turns freely, and planners have a variable without
+    effect. Make such a joint ``fixed``. If its velocity limit is 0 too, it is an info: intended.
     """
     for joint, limit, lower, upper in _iterate_bounded(robot):
         if lower == upper:
             named = list_names_in_blocks(robot, joint)
-            advice = (
-                _explain_names(named[0], joint) if named else "make it fixed, or write its range"
-            )
+            remedy = _explain_names(named, joint)
             yield Problem(
                 joint,
-                f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; {advice}",
+                f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; {remedy}",
                 at=limit.locate_attribute("upper"),
                 alike=bool(named),
-                severity=INFO if joint.limit and joint.limit.velocity == 0.0 else None,
+                severity=INFO if limit.velocity == 0.0 else None,
                 data={"position": lower, "named_by": [name for name, _ in named]},
             )
 
 
-def _explain_names(named: tuple[str, str], joint: Joint) -> str:
-    name, where = named
+def _explain_names(named: list[tuple[str, str]], joint: Joint) -> str:
+    if not named:
+        return "make it fixed, or write its range"
+    name, where = named[0]
     kind = "it" if name == joint.name else f"link '{name}'"
     return f"write its range; if it is made fixed, <{where}> names {kind}, which Gazebo lumps away"
 
