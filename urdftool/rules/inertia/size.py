@@ -140,6 +140,8 @@ def _may_round(robot: Robot, link: Link, moment: float) -> bool:
     a, b, c = box.size
     largest = link.mass / 12 * (a * a + b * b + c * c)
     return moment / _ROUNDED <= largest <= moment * _ROUNDED
+
+
 def _is_only_sliding(robot: Robot, link: Link) -> bool:
     """Tell whether no joint between the link ``world`` and a link rotates it."""
     name, seen = link.name, set[str]()
