@@ -65,9 +65,8 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
             if values is None or min(values) > 0:
                 continue
             rejected = kind == "collision" or keeps
-            is_frame = not link.mass and not any(
-                map(_has_extent, [*link.visuals, *link.collisions])
-            )
+            shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+            is_frame = not link.mass and not any(map(_has_extent, shapes))
             aborts = geometry.tag != "sphere" or min(values) < 0
             yield Problem(
                 link,
