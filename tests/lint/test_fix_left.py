@@ -36,7 +36,7 @@ def package(write, name, depends=""):
     ],
 )
 def test_an_end_effector_of_another_robot_gets_no_plugin(write, urdftool, include, is_it):
-    package(write, "gripper")
+    package(write, "gripper", "<depend>gz_ros2_control</depend>")
     package(write, "arm")
     path = write("ws/src/gripper/urdf/gripper.urdf.xacro", XACRO.format(GRIPPER))
     body = f'<xacro:include filename="{include}"/>\n'
@@ -48,7 +48,7 @@ def test_an_end_effector_of_another_robot_gets_no_plugin(write, urdftool, includ
 
 
 def test_a_robot_of_its_own_gets_its_plugin(write, urdftool):
-    package(write, "gripper")
+    package(write, "gripper", "<depend>gz_ros2_control</depend>")
     path = write("ws/src/gripper/urdf/gripper.urdf.xacro", XACRO.format(GRIPPER))
     urdftool("lint", path, *PLUGIN)
     assert "gz-sim-joint-state-publisher-system" in Path(path).read_text()

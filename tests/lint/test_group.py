@@ -92,14 +92,13 @@ def test_every_format_has_the_group_once_and_its_members(write, urdftool, style)
 
 
 def test_severities_are_told_apart(write):
-    small = '<visual><geometry><box size="0.02 0.02 0.02"/></geometry></visual>'
-    inside = LINK.format("s", small) + LINK.format("t", small)
-    path = write("r.urdf", robot("a", "b", inside=inside))
-    found = check(path, select=["missing-collision"], targets=["gz"], grouped=True)
-    assert [(f.severity.label, f.names) for f in found] == [
-        ("warning", ["a", "b"]),
-        ("info", ["s", "t"]),
-    ]
+    flat = '<visual><geometry><box size="0 0 0"/></geometry></visual>'
+    mass = '<inertial><mass value="1"/></inertial>'
+    links = [LINK.format(name, mass + flat) for name in "ab"]
+    frames = [LINK.format(name, flat) for name in "st"]
+    path = write("r.urdf", f'<robot name="r">{"".join(links + frames)}</robot>')
+    found = check(path, select=["non-positive-dimension"], grouped=True)
+    assert sorted((f.severity.label, f.count) for f in found) == [("info", 2), ("warning", 2)]
 
 
 def test_instances_of_a_macro_are_counted(xacro_file):
@@ -152,8 +151,11 @@ TRANSMISSION = """<transmission name="t{0}"><type>transmission_interface/SimpleT
 """
 
 
+CONTROL = '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"/></gazebo>\n'
+
+
 def test_the_fix_of_a_group_is_that_of_all_and_is_applied_to_all(write, urdftool):
-    text = "".join(map(TRANSMISSION.format, range(3)))
+    text = CONTROL + "".join(map(TRANSMISSION.format, range(3)))
     path = write("r.urdf", f'<robot name="r"><link name="a"/>\n{text}</robot>')
     only = ("--select", "unprefixed-hardware-interface", "--no-cache")
     (found,) = lint_json(urdftool, path, *only)["findings"]
@@ -167,7 +169,7 @@ def test_the_fix_of_a_group_is_that_of_all_and_is_applied_to_all(write, urdftool
 
 
 def test_a_fix_that_covers_a_part_says_how_much(write, urdftool):
-    text = "".join(map(TRANSMISSION.format, range(2)))
+    text = CONTROL + "".join(map(TRANSMISSION.format, range(2)))
     split = TRANSMISSION.format(2).replace(
         ">EffortJointInterface<", "><!-- x -->EffortJointInterface<"
     )

@@ -106,7 +106,7 @@ def test_a_format_of_meshes_rejects_whatever_rules_run(write, shape, mesh, rejec
 
 
 def test_pybullet_takes_nothing_of_a_robot_with_a_gltf_visual(write):
-    limit = LIMIT.replace('velocity="1"', 'velocity="1000"')
+    limit = LIMIT.replace('velocity="1"', 'velocity="1234"')
     links = LINK.format("a", 0.01), LINK.format("b", 0.01)
     for mesh, rejected in (("a.obj", False), ("a.glb", True)):
         visual = BOX.format("visual", mesh)
@@ -143,7 +143,7 @@ def test_gazebo_takes_nothing_of_a_joint_named_as_its_link_without_its_target(wr
 
 def test_a_remark_waits_until_a_reader_gets_as_far(write):
     def reported(parent, **options):
-        fast = LIMIT.replace('velocity="1"', 'velocity="1000"')
+        fast = LIMIT.replace('velocity="1"', 'velocity="1234"')
         links = (LINK.format(name, 0.01) for name in "abc")
         joints = JOINT.format("j", "a", "b", fast), JOINT.format("k", parent, "c", LIMIT)
         path = write("r.urdf", robot(*links, *joints))
