@@ -40,7 +40,7 @@ BASE = (
         "memo",
         "collector",
     ),
-    *("workspace", "projects", "git_command", "diagnostic"),
+    *("workspace", "projects", "git_command", "diagnostic", "standard_output"),
 )
 """Modules that know nothing of robots, each of which may import those before it."""
 
@@ -393,7 +393,7 @@ OPENERS = {
     "source/expansion_child.py": "the null device",
     "resident_memory.py": "memory of this process",
     "lint/baseline.py": NAMED,
-    "lint/cache.py": "entries of the cache",
+    "lint/installed_code.py": OWN,
     "fmt/discover.py": "lists the folder that the user names",
     "lint/discover.py": "lists the folder that the user names",
     "lint/moot.py": OWN,
@@ -406,6 +406,7 @@ OPENERS = {
     "rules/mesh/files.py": "the workspace materializes the path",
     "simulation/engines/mujoco/scene.py": TEMPORARY,
     "simulation/hull_cache.py": CHECKED,
+    "standard_output.py": "the null device",
     "storage.py": OUTPUTS,
     "terminal.py": "standard streams",
     "workspace.py": "the one place that opens files for a description",

@@ -106,8 +106,21 @@ def test_a_cached_report_is_read_without_rules_and_robots(tmp_path):
     words = ["lint", ROBOT, "--cache-dir", str(tmp_path)]
     probe = [sys.executable, "-c", PROBE.format(heavy=heavy), *words]
     first, second = (
-        subprocess.run(probe, capture_output=True, text=True, check=True).stdout.splitlines()[-1]
-        for _ in range(2)
+        subprocess.run([*probe, *more], capture_output=True, text=True, check=True).stdout
+        for more in ([], ["--statistics"])  # another run, with the same reports
     )
-    assert "urdftool.lint.run" in first.split()
-    assert second.split() == ["LOADED"]
+    assert "urdftool.lint.run" in first.splitlines()[-1].split()
+    assert second.splitlines()[-1].split() == ["LOADED"]
+
+
+def test_a_run_is_printed_again_without_reports(tmp_path):
+    heavy = [
+        *("urdftool.finding", "urdftool.lint.outcome", "urdftool.lint.settings"),
+        *("urdftool.output", "urdftool.workspace"),
+    ]
+    words = ["lint", ROBOT, "--cache-dir", str(tmp_path)]
+    probe = [sys.executable, "-c", PROBE.format(heavy=heavy), *words]
+    first, second = (subprocess.run(probe, capture_output=True, text=True) for _ in range(2))
+    assert "urdftool.finding" in first.stdout.splitlines()[-1].split()
+    assert second.stdout.splitlines()[-1].split() == ["LOADED"]
+    assert second.stdout.splitlines()[:-1] == first.stdout.splitlines()[:-1]

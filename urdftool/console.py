@@ -14,7 +14,15 @@ from .control_characters import escape_controls
 from .errors import UrdftoolError
 
 if TYPE_CHECKING:
+    from typing import Protocol
+
     from .source.description import GltfUp
+
+    class Transcript(Protocol):
+        """What is printed, in order."""
+
+        def add(self, stream: str, text: str) -> None:
+            """Add a text that is printed to a stream."""
 
 
 _LONGEST_LINE = 4000
@@ -35,6 +43,7 @@ class Console:
         gltf_up: Up axis of glTF meshes; None if not given.
         debug: Whether to print tracebacks.
         shows_progress: Whether to print progress; a worker does not.
+        transcript: Receives each line that is printed; None for none.
     """
 
     color: str = "auto"
@@ -43,6 +52,7 @@ class Console:
     gltf_up: GltfUp | None = None
     debug: bool = False
     shows_progress: bool = True
+    transcript: Transcript | None = None
 
     @property
     def quiet(self) -> bool:
@@ -70,6 +80,10 @@ class Console:
         for line in more:
             self._write(line)
 
+    def print_line(self, line: str) -> None:
+        """Print a line at every verbosity."""
+        self._write(line)
+
     def print_note(self, message: str, level: int = 0) -> None:
         """Print a message if the verbosity is at least ``level``."""
         if self.verbosity >= level:
@@ -86,6 +100,8 @@ class Console:
             self._write(f"  … and {len(error.notes) - _MOST_NOTES} more")
 
     def _write(self, line: str) -> None:
+        if self.transcript is not None:
+            self.transcript.add("stderr", line)
         with suppress(OSError):  # stderr may be closed; the exit code remains
             click.echo(escape_controls(_shorten(line)), err=True)
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from .errors import OutputError
 from .projects import explain_link_out
+from .standard_output import write_stdout
 from .storage import write_files
 from .workspace import Workspace
 
@@ -25,26 +25,9 @@ def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] 
         OutputError: The target cannot be written or is an input; the file is unchanged.
     """
     if target is None or target == "-":
-        _write_stdout(text)
+        write_stdout(text)
         return
     write_file(target, text.encode("utf-8"), inputs=inputs)
-
-
-def _write_stdout(text: str) -> None:
-    """Write a complete text, also if PYTHONUNBUFFERED causes partial writes."""
-    stream = getattr(sys.stdout, "buffer", None)
-    try:
-        sys.stdout.flush()
-        if stream is None:
-            sys.stdout.write(text)
-        else:
-            rest = memoryview(text.encode("utf-8"))
-            while rest:
-                rest = rest[stream.write(rest) or 0 :]
-        sys.stdout.flush()
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        raise OutputError("standard output was closed before all output was written") from None
 
 
 def _is_same_file(one: str | Path, other: str | Path) -> bool:

@@ -19,8 +19,9 @@ from hypothesis import strategies as st
 
 from tests.conftest import FIXTURES, XACRO
 from urdftool import dependencies
+from urdftool.commands import lint_printed
 from urdftool.lint import cache as cache_module
-from urdftool.lint import questions, run
+from urdftool.lint import installed_code, questions, run
 from urdftool.lint.cache import Cache
 from urdftool.lint.options import Options
 from urdftool.lint.parallel import check_files
@@ -37,6 +38,13 @@ def lint(urdftool):
 
 
 @pytest.fixture
+def lint_anew(lint, monkeypatch):
+    """Call lint, which reads reports of the cache, but no output of a whole run."""
+    monkeypatch.setattr(lint_printed, "_is_stored", lambda given: False)
+    return lint
+
+
+@pytest.fixture
 def no_check(monkeypatch):
     """From its call on, whatever is not known already is an error."""
 
@@ -49,7 +57,13 @@ def no_check(monkeypatch):
     return stop
 
 
-@pytest.mark.parametrize("style", ["full", "concise", "json", "sarif", "github", "junit", "html"])
+@pytest.mark.parametrize(
+    "style",
+    [
+        *("concise", "json", "sarif", "github", "junit"),
+        *(pytest.param(style, marks=pytest.mark.slow) for style in ("full", "html")),
+    ],
+)
 def test_a_report_that_was_kept_says_the_same(lint, no_check, style):
     folder = FIXTURES / "robots" if style == "full" else ARM.parent
     words = [ARM, folder, "--format", style, "--exit-zero"]
@@ -248,7 +262,8 @@ def test_other_code_settings_folders_and_arguments_are_other_questions(
     with monkeypatch.context() as patch:
         patch.chdir(tmp_path.parent)
         assert lint(os.path.relpath(tmp_path / path)).code == 3
-    monkeypatch.setattr(cache_module, "_hash_code", lambda: "another version")
+    monkeypatch.setattr(cache_module, "hash_code", lambda: "another version")
+    monkeypatch.setattr(installed_code, "hash_code", lambda: "another version")
     assert lint(path).code == 3
 
 
@@ -279,12 +294,12 @@ def entries(folder):
     ],
     ids=["empty", "half", "other end", "noise"],
 )
-def test_damaged_entries_count_as_absent(lint, write, damage):
+def test_damaged_entries_count_as_absent(lint_anew, write, damage):
     path = write("r.urdf", "<robot><link name='a'/></robot>")
-    first = lint(path, "--cache-dir", "kept")
+    first = lint_anew(path, "--cache-dir", "kept")
     for entry in entries("kept"):
         entry.write_bytes(damage(entry.read_bytes()))
-    assert lint(path, "--cache-dir", "kept") == first
+    assert lint_anew(path, "--cache-dir", "kept") == first
 
 
 class Evil:
@@ -316,40 +331,40 @@ FORGED = {
 
 
 @pytest.mark.parametrize("name", FORGED)
-def test_a_forged_entry_runs_nothing_and_counts_as_absent(lint, write, name):
+def test_a_forged_entry_runs_nothing_and_counts_as_absent(lint_anew, write, name):
     path = write("r.urdf", "<robot><link name='a'/></robot>")
     os.mkdir("kept")  # before its folder is listed
-    first = lint(path, "--cache-dir", "kept")
+    first = lint_anew(path, "--cache-dir", "kept")
     (entry,) = entries("kept")
     DiskCache("kept").put(entry.name, FORGED[name])
-    assert lint(path, "--cache-dir", "kept") == first
+    assert lint_anew(path, "--cache-dir", "kept") == first
     assert not os.path.exists("evil")
 
 
-def test_a_set_of_queries_that_contains_itself_does_not_hold(lint, write):
+def test_a_set_of_queries_that_contains_itself_does_not_hold(lint_anew, write):
     path = write("r.urdf", "<robot><link name='a'/></robot>")
     os.mkdir("kept")  # before its folder is listed
-    first = lint(path, "--cache-dir", "kept")
+    first = lint_anew(path, "--cache-dir", "kept")
     (entry,) = entries("kept")
     row = ["many", entry.name, "", None]
     forged = {"rows": [row], "files": [], "calls": [], "report": {"path": path}}
     DiskCache("kept").put(entry.name, json.dumps(forged).encode())
-    assert lint(path, "--cache-dir", "kept") == first
+    assert lint_anew(path, "--cache-dir", "kept") == first
 
 
 @pytest.mark.parametrize("span", [[-1, 2], [2, 1], [0, 10**6], [10**6, 10**6]])
-def test_a_place_outside_of_its_file_is_damage(lint, write, span):
+def test_a_place_outside_of_its_file_is_damage(lint_anew, write, span):
     path = write("r.urdf", "<robot><link name='a'/></robot>")
     os.mkdir("kept")  # before its folder is listed
-    first = lint(path, "--cache-dir", "kept")
+    first = lint_anew(path, "--cache-dir", "kept")
     (entry,) = entries("kept")
     forged = json.loads(DiskCache("kept").get(entry.name))
     forged["report"]["findings"][0]["message"] = "forged"
     DiskCache("kept").put(entry.name, json.dumps(forged).encode())
-    assert "forged" in lint(path, "--cache-dir", "kept").out  # its digest has no key
+    assert "forged" in lint_anew(path, "--cache-dir", "kept").out  # its digest has no key
     forged["report"]["findings"][0]["location"][1:3] = span
     DiskCache("kept").put(entry.name, json.dumps(forged).encode())
-    assert lint(path, "--cache-dir", "kept") == first
+    assert lint_anew(path, "--cache-dir", "kept") == first
 
 
 def replace_value(table, path, value):
@@ -378,7 +393,7 @@ OTHERS = (
     "style",
     ["json", *(pytest.param(one, marks=pytest.mark.slow) for one in ("full", "sarif", "html"))],
 )
-def test_an_entry_with_any_wrong_value_is_no_crash(lint, write, style):
+def test_an_entry_with_any_wrong_value_is_no_crash(lint_anew, write, style):
     """An entry of the right types is believed: its digest has no key."""
     path = write(
         "r.urdf.xacro",
@@ -390,7 +405,7 @@ def test_an_entry_with_any_wrong_value_is_no_crash(lint, write, style):
     )
     os.mkdir("kept")  # before its folder is listed
     words = [path, "--cache-dir", "kept", "--format", style, "--exit-zero"]
-    assert lint(*words).code == 0
+    assert lint_anew(*words).code == 0
     (entry,) = entries("kept")
     whole = json.loads(DiskCache("kept").get(entry.name))
     assert whole["report"]["findings"]
@@ -399,7 +414,7 @@ def test_an_entry_with_any_wrong_value_is_no_crash(lint, write, style):
     for _ in range(int(os.environ.get("CACHE_FORGERIES", "30"))):
         forged = replace_value(whole, dice.choice(places), dice.choice(OTHERS))
         DiskCache("kept").put(entry.name, json.dumps(forged).encode())
-        result = lint(*words)
+        result = lint_anew(*words)
         assert result.code == 0, forged
         assert "Traceback" not in result.err
 

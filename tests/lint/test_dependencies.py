@@ -82,7 +82,13 @@ OF_PROCESSES = {
 """Modules that use the environment of processes, which no description reads."""
 
 OTHERS = {
-    *("lint/baseline.py", "lint/cache.py", "lint/discover.py", "lint/group.py", "lint/moot.py"),
+    *(
+        "lint/baseline.py",
+        "lint/installed_code.py",
+        "lint/discover.py",
+        "lint/group.py",
+        "lint/moot.py",
+    ),
     *("lint/changes.py", "lint/launches.py", "lint/robot_search.py"),
     *("lint/settings.py", "lint/skipped.py", "lint/stale.py", "lint/variants.py", "lint/watch.py"),
     "model/files.py",

@@ -23,6 +23,7 @@ from .options import (
 )
 
 if TYPE_CHECKING:
+    from ..lint.printed import Transcript
     from ..workspace import Workspace
     from .lint_watch import CheckFiles
 
@@ -160,7 +161,11 @@ def command(console: Console, /, watch: bool, **given: Any) -> int:
     robot could not be read or expanded, and was not checked.
     """  # noqa: D301 -- click reads the escape
     if not watch:
-        return _check_paths(console, **given)
+        from .lint_printed import print_run
+
+        return print_run(
+            console, given, lambda done: _check_paths(console, **given, transcript=done)
+        )
     from .lint_watch import watch_files
 
     if given["scheduler"] is not None:
@@ -203,6 +208,7 @@ def _check_paths(
     changed_since: str | None,
     package: dict[str, Path],
     package_path: tuple[str, ...],
+    transcript: Transcript | None = None,
     check: CheckFiles | None = None,
 ) -> int:
     """Check descriptions with the options of the command line, and return the exit code."""
@@ -232,7 +238,10 @@ def _check_paths(
         raise click.UsageError("missing argument PATH: a file or folder, or '-' for standard input")
     other = find_other_descriptions(paths)
     folders = [path for path in paths if os.path.isdir(path)]
-    workspace = Workspace()
+    workspace = Workspace().with_record()
+    for path in paths:
+        workspace.is_file(path)
+        workspace.resolve_links(path)
     options = Options(Settings(), arguments, package, package_path, config=console.config)
     options.workspace = workspace
     found = find_repository(paths, options)
@@ -298,6 +307,8 @@ def _check_paths(
         check_all = check or partial(check_files, scheduler=scheduler, on_progress=shown)
         checked = check_all(files, options, jobs)
         reports = list(add_skipped_parts(checked, paths, belonging))
+    if transcript is not None:
+        transcript.set_dependencies(reports, workspace.dependencies)
     skipped = [Report(path, skipped=reason) for path, reason in other.skipped.items()]
     skipped += [Report(path, skipped=why, stopped=why) for path, why in other.not_checked.items()]
     return report(console, [*reports, *skipped, *excluded], settings, output)

@@ -100,6 +100,8 @@ def report(
         click.echo(text, err=True, nl=False)
     else:
         write_result(text, output.output_file, inputs=_list_inputs(outcome) if to_file else [])
+        if console.transcript is not None:
+            console.transcript.add("stdout", text)
     if output.junit is not None:
         junit = as_text(outcome, "junit", fail_on=threshold)
         write_result(junit, output.junit, inputs=_list_inputs(outcome))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from ..errors import UrdftoolError
 from ..finding import Finding
@@ -35,6 +36,7 @@ class Report:
         not_fixed: Findings whose fix cannot be applied to the source, with the reason.
         outside: Findings whose fix would change a file outside of the package, with both.
         unread_meshes: Why a mesh file may not be read, so that it was not checked, by its URI.
+        rows: Rows of the queries on which it depends; None if it is not in a cache.
     """
 
     path: str
@@ -56,6 +58,7 @@ class Report:
     not_fixed: list[tuple[Finding, str]] = field(default_factory=list)
     outside: list[tuple[Finding, str]] = field(default_factory=list)
     unread_meshes: dict[str, str] = field(default_factory=dict)
+    rows: Sequence[tuple[Any, ...]] | None = field(default=None, compare=False, repr=False)
 
     @property
     def suppressed(self) -> int:

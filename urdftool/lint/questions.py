@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..configuration import Configuration, find_configuration
 from .options import Options
 from .outcome import Report
 from .settings import Settings, read_settings
 from .variants import as_one, get_variants, label
+
+if TYPE_CHECKING:
+    from .queries import Row
 
 Question = tuple[str | Path, Options, Configuration, Settings]
 
@@ -48,4 +53,17 @@ def find_cached_report(path: str | Path, options: Options) -> Report | None:
 
 def join_variants(reports: list[tuple[str, Report]]) -> Report:
     """Return one report for those of each set of xacro arguments, by its label."""
-    return reports[0][1] if len(reports) == 1 else as_one(dict(reports))
+    if len(reports) == 1:
+        return reports[0][1]
+    rows = join_rows(report for _, report in reports)
+    joined = as_one(dict(reports))
+    joined.rows = rows
+    return joined
+
+
+def join_rows(reports: Iterable[Report]) -> list[Row] | None:
+    """Return the rows of all reports, each once; None if a report is not in a cache."""
+    each = [report.rows for report in reports]
+    if any(rows is None for rows in each):
+        return None
+    return list(dict.fromkeys(row for rows in each for row in rows or ()))

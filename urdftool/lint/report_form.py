@@ -22,8 +22,9 @@ _CLASSES: dict[str, type] = {
     one.__name__: one
     for one in (Report, Finding, Group, Cause, Fix, Replacement, FileRewrite, Place, Call)
 }
-_EMPTY = {Report: {"error", "failed_rules"}, Finding: {"members", "consequences"}}
-"""Fields without a value: a cached report is complete, and its findings are not grouped yet."""
+_EMPTY = {Report: {"error", "failed_rules", "rows"}, Finding: {"members", "consequences"}}
+"""Fields without a value: a cached report is complete, its findings are not grouped yet, and its
+rows are stored separately."""
 
 _LARGEST = 2**53
 """Smallest whole number whose successor is no other double, as JSON readers have."""
