@@ -83,6 +83,6 @@ def test_limits_that_are_not_mirrored(write):
     assert [one.name for one in found] == [f"right_leg_{n}_joint" for n in range(3)]
     (found,) = problems(write("many.urdf", limbs(4, -0.5)), "limits-not-mirrored")
     assert found.data == {"twin": "left_leg_0_joint", "mirrored": [-1, 1]}
-    others = ", ".join(f"'right_leg_{n}_joint'" for n in range(1, 4))
-    assert found.message.endswith(f"; the same applies to {others}")
+    others = ", ".join(f"'right_leg_{n}_joint' (-1 to 1)" for n in range(1, 4))
+    assert found.message.endswith(f"-1 to 1; also {others}")
     assert found.place.line == found.subject.limit.place.line

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
-from ...geometry.penetration import Convex, compute_overlap, make_convex
+from ...geometry.penetration import CORNER_DIRECTIONS, Convex, compute_overlap, make_convex
 from ...model.elements import Joint, Link, Mesh, Robot, Vector
 from ...model.kinematics import MOVABLE, add_mimic_positions, get_limits, link_poses
-from ...model.pose import IDENTITY, Pose, make_pose
+from ...model.pose import IDENTITY, Pose, make_pose, rotate, transpose
 from ..mesh.link_extents import get_convex_points, get_extents
 
 HOLLOW = 0.01
@@ -19,22 +19,24 @@ parts it is a tenth of their radius."""
 class ConvexBodies:
     """The collisions of a robot as convex pieces, with all joints at rest.
 
-    A joint rests at zero, or in the middle of its range if zero is outside. A mesh counts as its
-    convex hull. Links that are fixed to each other are one body; bodies that share a joint are
-    neighbors. For a robot with several roots the largest tree counts.
+    A joint rests at zero, or in the middle of its range if zero is outside, as in MoveIt; with
+    ``at_zero`` it is at zero, as simulators start it. A mesh counts as its convex hull. Links that
+    are fixed to each other are one body; bodies that share a joint are neighbors. For a robot with
+    several roots the largest tree counts.
 
     Attributes:
         bodies: The pieces of each body with their links, in the root frame.
         unread: Meshes that could not be read.
+        centered: Positions of joints that rest in the middle of their range [rad or m].
     """
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, at_zero: bool = False) -> None:
         """Place the pieces; this reads the meshes."""
         self.robot = robot
         self.unread: list[str] = []
-        self.rest = add_mimic_positions(
-            robot, {j.name: middle for j in robot.joints if (middle := _compute_rest_position(j))}
-        )
+        joints = () if at_zero else robot.joints
+        self.centered = {j.name: middle for j in joints if (middle := _compute_rest_position(j))}
+        self.rest = {} if at_zero else add_mimic_positions(robot, self.centered)
         self.poses = _select_largest_tree(robot, link_poses(robot, self.rest))
         self.body_of = robot.tree.bodies
         self.bodies: dict[str, list[tuple[Link, Convex]]] = {}
@@ -72,6 +74,11 @@ class ConvexBodies:
             found = get_convex_points(use)
             if found is not None:
                 yield _compute_hull(found.points, use.mesh.scale, pose)
+
+    def get_pieces_of(self, link: Link) -> list[Convex]:
+        """Get the pieces of a link, in the root frame."""
+        body = self.bodies.get(self.body_of.get(link.name, link.name), ())
+        return [piece for owner, piece in body if owner is link]
 
     def find_deepest_overlap(
         self,
@@ -206,3 +213,28 @@ def _compute_rest_position(joint: Joint) -> float:
 def get_convex_bodies(robot: Robot) -> ConvexBodies:
     """Get the pieces of a robot, shared by all rules."""
     return robot.memo.get("pieces", lambda: ConvexBodies(robot))
+
+
+def get_bodies_at_zero(robot: Robot) -> ConvexBodies:
+    """Get the pieces of a robot with all joints at zero, also where that is outside a range."""
+    if not get_convex_bodies(robot).centered:
+        return get_convex_bodies(robot)
+    return robot.memo.get("pieces at zero", lambda: ConvexBodies(robot, at_zero=True))
+
+
+def compute_depth(around: Convex, at: tuple[float, float, float]) -> float:
+    """Compute the depth of a point in a shape: 1 at the center, 0 on the surface, negative outside.
+
+    It is in half widths of the shape.
+    """
+    x, y, z = (a - b for a, b in zip(at, around.pose.translation, strict=True))
+    local = rotate(transpose(around.pose.rotation), (x, y, z))
+    least = 1.0
+    for a, b, c in CORNER_DIRECTIONS:
+        ahead = around.reach(a, b, c)
+        half = (ahead + around.reach(-a, -b, -c)) / 2
+        if half > 0:
+            least = min(least, (ahead - a * local[0] - b * local[1] - c * local[2]) / half)
+        if least < 0:
+            break
+    return least

@@ -6,17 +6,19 @@ import math
 from collections.abc import Iterator
 
 from ...diagnostic import Severity
-from ...geometry.penetration import CORNER_DIRECTIONS, Convex
 from ...model.elements import Joint, Link, Mesh, Robot
 from ...model.kinematics import MOVABLE, compute_motion, get_limits
-from ...model.pose import IDENTITY, Pose, compute_dot, make_pose, rotate, transpose
+from ...model.pose import IDENTITY, Pose, compute_dot, make_pose, rotate
 from ...model.read import parse_numbers
 from ...model.settings import is_set
+from ...source.description import Description
 from ..mujoco import reads_collisions
 from ..rule import GAZEBO, INFO, WARNING, Problem, rule
-from ..words import join_some
-from .convex_bodies import ConvexBodies, get_convex_bodies
+from ..tree.mounted import is_mobile
+from ..words import join_some, quote
+from .convex_bodies import ConvexBodies, compute_depth, get_bodies_at_zero, get_convex_bodies
 from .exact_contact import find_contact
+from .intended_overlap import find_centered_joints, remove_intended
 
 APPLIES_TO = ("collision",)
 
@@ -51,34 +53,60 @@ _Pair = tuple[Link, Link, float]
     },
 )
 def self_collision_at_zero(
-    robot: Robot, *, deeper: float = 0.001, deep: float = 0.02
+    robot: Robot,
+    description: Description,
+    targets: frozenset[str],
+    *,
+    deeper: float = 0.001,
+    deep: float = 0.02,
 ) -> Iterator[Problem]:
-    """Two links that no joint connects overlap with all joints at rest.
+    """Two links that no joint connects overlap with all joints at zero.
 
-    A motion planner finds the start state in collision, and a simulator with self-collision pushes
-    the links apart. Links that are fixed to each other count as one, and links that share a joint
-    may overlap. Pairs disabled in the SRDF are ignored. A mesh counts as its convex hull, as in
-    MuJoCo, which may overlap by a centimeter; the meshes themselves, which MoveIt compares,
-    may be apart. A joint that cannot be at zero rests in the middle of its range. ``deeper`` [m] is
-    the tolerated overlap. One finding counts the pairs, the deepest first, and a second one the
-    pairs that include the convex hull of a mesh. It is a warning if the center of a link is in
-    another of similar size, and the overlap is more than ``deep`` [m].
+    A motion planner finds the start state in collision, and MuJoCo makes contact between the links
+    from the first step. Links that are fixed to each other count as one, and links that share a
+    joint may overlap. Not reported are pairs that an SRDF next to the file disables, the stages of
+    a telescope, and parts inside a link that encloses several, such as a safety box. A mesh counts
+    as its convex hull, as in MuJoCo, which may overlap by a centimeter; the meshes themselves,
+    which MoveIt compares, may be apart. A joint whose range excludes zero is in the middle of its
+    range, as in MoveIt, and the message names it; MuJoCo starts it at zero. ``deeper`` [m] is the
+    tolerated overlap. One finding counts the pairs, the deepest first, and a second one the pairs
+    that include the convex hull of a mesh. It is a warning if the center of a link is in another of
+    similar size, and the overlap is more than ``deep`` [m]. Other overlaps of a robot that drives,
+    walks or flies are reported if MuJoCo reads its collisions, or if it has an SRDF.
     """
     loaded = ("mujoco (loaded)",) if reads_collisions(robot) else ()
-    found = list(find_resting_overlaps(robot, deeper))
-    hulls = [pair for pair in found if any(map(has_mesh, pair[:2]))]
+    found = remove_intended(robot, description, find_resting_overlaps(robot, deeper))
     exact = [pair for pair in found if not any(map(has_mesh, pair[:2]))]
-    for pairs, what, keys in (
-        (exact, "links", ("moveit", *loaded)),
+    hulls = _place_at_zero(robot, [pair for pair in found if pair not in exact], deeper)
+    started = _place_at_zero(robot, exact, deeper) if loaded else []
+    planned = ("moveit",) if "moveit" in targets or not is_mobile(robot) else ()
+    keys = (*planned, *(loaded if started else ()))
+    for pairs, what, readers in (
+        (exact if planned or not loaded else started, "links", keys),
         (hulls if loaded else [], "the convex hulls of links", loaded),
     ):
         pairs.sort(key=lambda pair: -pair[2])
         inside = [pair for pair in pairs if pair[2] > deep and _is_inside(robot, *pair[:2])]
         if inside:
-            yield _report_overlap(inside, keys, what, WARNING)
+            yield _report_overlap(robot, inside, readers, what, WARNING)
         rest = [pair for pair in pairs if pair not in inside]
-        if rest:  # of MoveIt the hulls say nothing
-            yield _report_overlap(rest, keys, what, INFO if pairs is hulls else None)
+        if rest and readers:  # of MoveIt the hulls say nothing
+            yield _report_overlap(robot, rest, readers, what, None if "moveit" in readers else INFO)
+
+
+def _place_at_zero(robot: Robot, pairs: list[_Pair], deeper: float) -> list[_Pair]:
+    """Compute overlaps with all joints at zero, where a joint between two links is elsewhere."""
+    known = get_bodies_at_zero(robot)
+    found = []
+    for pair in pairs:
+        if find_centered_joints(robot, [pair]):
+            bodies = [known.body_of.get(link.name, link.name) for link in pair[:2]]
+            placed = known.find_deepest_overlap(bodies[0], bodies[1], least=deeper)
+        else:
+            placed = pair
+        if placed is not None:
+            found.append(placed)
+    return found
 
 
 def _is_inside(robot: Robot, one: Link, other: Link, core: float = 0.5) -> bool:
@@ -86,18 +114,10 @@ def _is_inside(robot: Robot, one: Link, other: Link, core: float = 0.5) -> bool:
 
     ``core`` is the depth as a part of the half width.
     """
-    known = get_convex_bodies(robot)
-    pieces = [
-        [
-            piece
-            for link, piece in known.bodies.get(known.body_of.get(end.name, end.name), ())
-            if link is end
-        ]
-        for end in (one, other)
-    ]
+    pieces = [get_convex_bodies(robot).get_pieces_of(end) for end in (one, other)]
     return any(
         0.5 < piece.radius / around.radius < 2
-        and _compute_depth(around, piece.pose.translation) > core
+        and compute_depth(around, piece.pose.translation) > core
         for first, second in (pieces, pieces[::-1])
         for piece in first
         for around in second
@@ -110,16 +130,23 @@ def has_mesh(link: Link) -> bool:
 
 
 def _report_overlap(
-    pairs: list[_Pair], effects: tuple[str, ...], what: str, severity: Severity | None = None
+    robot: Robot,
+    pairs: list[_Pair],
+    effects: tuple[str, ...],
+    what: str,
+    severity: Severity | None = None,
 ) -> Problem:
     """Report the pairs of links that overlap, the deepest at the second link."""
     _, other, depth = pairs[0]
-    at_rest = "with all joints at rest"
+    joints = find_centered_joints(robot, pairs) if "moveit" in effects else []
+    where = "with all joints at zero"
+    if joints:
+        where = f"with {quote(joints)} in the middle of the range and other joints at zero"
     if len(pairs) == 1:
-        message = f"{what} {_format_pairs(pairs)} overlap by up to {depth * 1000:.3g} mm {at_rest}"
+        message = f"{what} {_format_pairs(pairs)} overlap by up to {depth * 1000:.3g} mm {where}"
     else:
         message = (
-            f"{len(pairs)} pairs of {what.removeprefix('the ')} overlap {at_rest}, by up to "
+            f"{len(pairs)} pairs of {what.removeprefix('the ')} overlap {where}, by up to "
             f"{depth * 1000:.3g} mm: {_format_pairs(pairs)}"
         )
     names = [[one.name, other.name] for one, other, _ in pairs]
@@ -276,25 +303,10 @@ def _compute_center_depth(
         for parent, around in known.bodies.get(known.body_of.get(joint.parent, joint.parent), ()):
             if not 0.5 < piece.radius / around.radius < 2:
                 continue
-            depth = _compute_depth(around, at)
+            depth = compute_depth(around, at)
             if depth > best[0]:
                 best = depth, parent
     return best
-
-
-def _compute_depth(around: Convex, at: tuple[float, float, float]) -> float:
-    """Compute the depth of a point in a shape: 1 at the center, 0 on the surface."""
-    x, y, z = (a - b for a, b in zip(at, around.pose.translation, strict=True))
-    local = rotate(transpose(around.pose.rotation), (x, y, z))
-    least = 1.0
-    for a, b, c in CORNER_DIRECTIONS:
-        ahead = around.reach(a, b, c)
-        half = (ahead + around.reach(-a, -b, -c)) / 2
-        if half > 0:
-            least = min(least, (ahead - a * local[0] - b * local[1] - c * local[2]) / half)
-        if least < 0:
-            break
-    return least
 
 
 @rule(

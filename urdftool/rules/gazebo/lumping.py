@@ -88,9 +88,9 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
     """A fixed joint has a ``<gazebo>`` block but is not preserved.
 
     Gazebo removes fixed joints and lumps their links into one body. A force sensor or a plugin of
-    the joint is dropped without a message. Add ``preserveFixedJoint`` to keep the joint. If the
-    block only has settings of the joint, which have no effect on a fixed joint, the finding is a
-    warning.
+    the joint is dropped without a message. Add ``preserveFixedJoint`` to keep the joint. A block
+    that only has settings of the joint, such as a spring, has no effect on a fixed joint, and is
+    reported only as a warning if a plugin names the joint: it reads the feedback of the joint.
     """
     for block in robot.gazebo:
         joint = robot.joint.get(block.reference or "")
@@ -105,13 +105,15 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
             continue
         what = quote(dict.fromkeys(f"<{child.tag}>" for child in lost)).replace("'", "")
         settles = all(child.tag in JOINT_KEYWORDS for child in lost)
+        if settles and not _is_named_by_plugin(robot, joint.name):
+            continue  # a fixed joint has no spring, and nothing reads its feedback
         remedy = "add <preserveFixedJoint>true</preserveFixedJoint>"
         child = robot.link.get(joint.child)
         is_massless = child is not None and child.mass == 0
         if child is not None and is_massless:
             remedy += f" and give link '{child.name}' an <inertial>"
         if settles:
-            remedy = f"remove the block; for a sensor {remedy}"
+            remedy = f"for the plugin that names it {remedy}, or remove the block"
         yield Problem(
             block.element,
             f"joint '{joint.name}' is fixed, so Gazebo lumps it and drops {what}; {remedy}",
@@ -120,6 +122,17 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
             alike=(what, is_massless),
             data={"joint": joint.name, "elements": list(dict.fromkeys(one.tag for one in lost))},
         )
+
+
+def _is_named_by_plugin(robot: Robot, joint: str) -> bool:
+    """Tell whether a plugin or a sensor in a block has the name of a joint as the text of a tag."""
+    return any(
+        each.text.strip() == joint
+        for block in robot.gazebo
+        for child in block.element.children
+        if child.tag in ("plugin", "sensor")
+        for each in child.walk()
+    )
 
 
 @lumped_joint_loses_content.fix(UNSAFE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
+from ...diagnostic import Severity
 from ...model.elements import GazeboExtension, Robot
 from ...source.document import Element
 from ..fix import (
@@ -44,7 +45,9 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
     Gazebo ignores the whole block without a message: friction is not set, a camera does not exist,
     a joint is lumped. The name may be misspelled or lack a prefix, or the link was removed. An SDF
     ``<joint>`` that closes a loop also requires existing links; without them Gazebo rejects the
-    model, and sdformat 12.3 does not find a link that it lumps.
+    model, and sdformat 12.3 does not find a link that it lumps. It is a warning if neither a sensor
+    nor a plugin is lost, and an info if only looks or settings of a joint are, and no name is
+    similar.
     """
     yield from _check_loops(robot)
     names = {*robot.link, *robot.joint}
@@ -69,13 +72,27 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
         if compared > _MOST_COMPARISONS:
             candidates = ()
         known = [one for one in candidates if not _has_settings_of(block, one, robot)]
+        suggestion = find_nearest(name, known, _MIN_SIMILARITY)
         yield Problem(
             block.element,
             f"reference '{name}' is neither a link nor a joint, so Gazebo ignores the block"
             + suggest_name(name, known, _MIN_SIMILARITY),
             at=block.locate_attribute("reference"),
-            data={"name": name, "suggestion": find_nearest(name, known, _MIN_SIMILARITY)},
+            severity=_choose_severity(block, bool(suggestion)),
+            data={"name": name, "suggestion": suggestion},
         )
+
+
+def _choose_severity(block: GazeboExtension, is_misspelled: bool) -> Severity:
+    """Choose the severity by what Gazebo loses: sensors and plugins, settings, or leftovers.
+
+    Looks, and springs of a joint that was removed, are lost without harm, unless a name is similar.
+    """
+    tags = {child.tag for child in block.element.children}
+    if tags & {"sensor", "plugin", "link", "joint"}:
+        return ERROR
+    is_leftover = tags <= {"material", "visual"} or tags <= JOINT_KEYWORDS
+    return INFO if is_leftover and not is_misspelled else WARNING
 
 
 _MOST_COMPARISONS = 50_000

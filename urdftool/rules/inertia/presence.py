@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.attached import find_attached_links, is_fixed_to_world
-from ...model.elements import MOVING_TYPES, Joint, Link, Robot
+from ...model.elements import MOVING_TYPES, Joint, Link, Mesh, Robot
 from ..fix import (
     Change,
     FixContext,
@@ -31,7 +31,7 @@ from ..rule import (
     rule,
 )
 from ..symmetry import find_twin
-from ..tree.mounted import is_arm
+from ..tree.mounted import is_arm, is_floating_base
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
 from .light_body import find_light_body
@@ -75,8 +75,9 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     than that of air of the link's size, and except for PyBullet and MuJoCo, which substitute a mass
     there too.
     The mass of a link that is fixed to the world matters only to Gazebo.
-    Frames without geometry need none, although PyBullet gives them 1 kg. A marker below 1 g at
-    the density of water is an info where MuJoCo substitutes the mass.
+    Frames without geometry need none, although PyBullet gives them 1 kg, nor does a frame with a
+    marker below 1 g at the density of water that is fixed to a link with a mass. Another such
+    marker is an info where MuJoCo substitutes the mass.
     """
     if robot.format == "sdf":
         yield from _report_default_inertials(robot)
@@ -123,6 +124,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
                 outcome, severity = "light", WARNING
                 so = f", and the links fixed to it {light.describe()}"
                 several = ", and the links fixed to them are lighter than air of their size"
+            elif _is_marker(link):
+                continue  # the frame of a tool or sensor, with a shape to show it
         elif held and not targets.isdisjoint(("mujoco", "pybullet")):
             continue  # its mass has no effect there
         elif held:
@@ -199,8 +202,9 @@ def _select_effects(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
 def _is_marker(link: Link) -> bool:
     """Tell whether a link is so small that at the density of water its mass is below 1 g."""
     shapes = link.collisions or link.visuals
-    volumes = [compute_volume(shape.geometry) for shape in shapes]
-    return all(volumes) and 1000 * sum(volumes) < _MARKER
+    if any(shape.geometry is None or isinstance(shape.geometry, Mesh) for shape in shapes):
+        return False
+    return 1000 * sum(compute_volume(shape.geometry) for shape in shapes) < _MARKER
 
 
 _LIGHTEST = 1e-5
@@ -389,12 +393,13 @@ def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
     PyBullet gives such a root 1 kg, and with ``URDF_USE_INERTIA_FROM_FILE`` 1 kg·m² about each
     axis, which makes a robot with a free base heavier. Therefore neither the remedy nor the fix is
     offered with the target ``pybullet``. Arms and grippers are not reported, because their root is
-    mounted: its mass has no part in their dynamics.
+    mounted: its mass has no part in their dynamics; nor are robots that walk or fly, whose root is
+    the body that moves, and to which a root above it is another frame of reference.
     """
     root = robot.tree.root
     if root is None or len(robot.tree.roots) > 1 or _is_broken(robot):
         return  # fixing these may change the root
-    if is_arm(robot) or _is_gripper(robot):
+    if is_arm(robot) or _is_gripper(robot) or is_floating_base(robot):
         return
     if root.inertial is not None and root.inertial.mass != 0.0:
         remedy, hint = "; add a root link without one above it, on a fixed joint", _IN_PYBULLET

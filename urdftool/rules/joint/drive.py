@@ -27,6 +27,7 @@ from ..xml.vocabulary_table import (
     find_misspelled_children,
     is_for_another_reader,
 )
+from .idle import is_dummy
 from .range import is_locked
 
 _UNITS = {"prismatic": ("N", "m/s")}
@@ -49,12 +50,15 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     limit. Write the maximum effort of the drive, from its data sheet. In a file with Drake elements
     the finding is an info, because Drake uses 0 for a passive joint. A joint is not reported where
     a transmission, ros2_control or a plugin drives other joints and not this one: it is passive,
-    and 0 is correct.
+    and 0 is correct. ``locked-by-limits`` reports a joint whose lower and upper limit are equal.
+    A joint named as a dummy that moves neither geometry nor more than 1 g is not reported.
     """
     passive = "gz" not in targets and is_for_another_reader(robot.xml)
     actuated = find_actuated_joints(robot)
     for joint, limit in _iterate_driven(robot):
-        if limit.effort == 0.0 and not is_passive(joint, actuated):
+        if limit.effort == 0.0 and not is_passive(joint, actuated) and not is_locked(joint):
+            if is_dummy(robot, joint):
+                continue
             yield Problem(
                 joint,
                 f"effort limit of joint '{joint.name}' is 0; "
@@ -80,10 +84,11 @@ def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
     """The velocity limit of a moving joint is 0.
 
     Gazebo then does not allow the joint to move. MoveIt takes it as a missing limit and cannot time
-    a trajectory. ``locked-by-limits`` reports a joint whose lower and upper limit are equal.
+    a trajectory. ``locked-by-limits`` reports a joint whose lower and upper limit are equal. A
+    joint named as a dummy that moves neither geometry nor more than 1 g is not reported.
     """
     for joint, limit in _iterate_driven(robot):
-        if limit.velocity == 0.0 and not is_locked(joint):
+        if limit.velocity == 0.0 and not is_locked(joint) and not is_dummy(robot, joint):
             yield Problem(
                 joint,
                 f"velocity limit of joint '{joint.name}' is 0, so it must not move; "

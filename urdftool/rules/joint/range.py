@@ -22,6 +22,7 @@ from ..fix import (
 from ..mesh.link_extents import get_extents
 from ..renaming import list_names_in_blocks
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
+from .idle import is_dummy
 
 
 @rule(
@@ -142,9 +143,10 @@ def locked_by_limits(robot: Robot) -> Iterator[Problem]:
 
     MuJoCo ignores such limits, so the joint turns freely, and planners have a variable without
     effect. Make such a joint ``fixed``. If its velocity limit is 0 too, it is an info: intended.
+    Joints named as a dummy, which move no geometry and at most 1 g, are not reported.
     """
     for joint, limit, lower, upper in _iterate_bounded(robot):
-        if lower == upper:
+        if lower == upper and not is_dummy(robot, joint):
             named = list_names_in_blocks(robot, joint)
             remedy = _explain_names(named, joint)
             yield Problem(

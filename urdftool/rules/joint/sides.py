@@ -7,10 +7,11 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...model.elements import Joint, Link, Robot, Vector
+from ...model.elements import Joint, Robot, Vector
 from ..rule import ANY_FORMAT, INFO, WARNING, Problem, rule
 from ..symmetry import Pair, Sides, get_family, get_sides
-from ..words import quote
+from ..words import join_some, quote
+from .idle import moves_nothing
 
 
 @rule(
@@ -74,32 +75,53 @@ def limits_not_mirrored(
     reported, neither are displaced joints, joints that move no mass or geometry, and a mimic joint
     whose range has all positions that its leader asks of it. ``tolerance``
     [rad or m] is the difference that is ignored. More than ``together`` such joints are one
-    finding.
+    finding, those with a wrong sign apart from the others, whose mirrored ranges are written.
     """
     found = get_sides(robot)
     if found.normal is None:
         return
     unlike = list(_find_asymmetric_ranges(robot, found, tolerance))
-    also = ""
-    if len(unlike) > together:
-        names = ", ".join(f"'{pair.right_joint.name}'" for pair, _, _ in unlike[1:])
-        also = f"; the same applies to {names}"
-    for pair, message, expected in unlike[:1] if also else unlike:
-        joint = pair.right_joint
-        data = {"twin": pair.left_joint.name, "mirrored": list(expected)}
-        yield Problem(joint, message + also, at=joint.limit, data=data)
+    for sign in (True, False):
+        yield from _report_ranges([one for one in unlike if one.has_wrong_sign is sign], together)
+
+
+class _Unlike(NamedTuple):
+    """A pair of joints whose ranges are not symmetric."""
+
+    pair: Pair
+    expected: tuple[float, float]
+    """Range that mirrors the left joint [rad or m]."""
+    right: tuple[float, float]
+    has_wrong_sign: bool
+    """Whether the other sign of the axis makes the ranges symmetric."""
+
+
+def _report_ranges(unlike: list[_Unlike], together: float) -> Iterator[Problem]:
+    """Report pairs of one diagnosis; many as one finding, with the range that each should have."""
+    many = len(unlike) > together
+    for one in unlike[:1] if many else unlike:
+        joint, (low, high) = one.pair.right_joint, one.expected
+        what = f"the mirrored range is {low:g} to {high:g}"
+        if one.has_wrong_sign:
+            what = "its axis or its limits have the wrong sign"
+        message = (
+            f"range {one.right[0]:g} to {one.right[1]:g} of joint '{joint.name}' is not the mirror "
+            f"image of the range of '{one.pair.left_joint.name}': {what}"
+        )
+        if many and one.has_wrong_sign:
+            names = ", ".join(f"'{other.pair.right_joint.name}'" for other in unlike[1:])
+            message += f"; the same applies to {names}"
+        elif many:
+            shown = [
+                f"'{other.pair.right_joint.name}' ({other.expected[0]:g} to {other.expected[1]:g})"
+                for other in unlike[1:]
+            ]
+            message += f"; also {join_some(shown, 'joints')}"
+        data = {"twin": one.pair.left_joint.name, "mirrored": list(one.expected)}
+        yield Problem(joint, message, at=joint.limit, data=data)
 
 
 _GRIPPER = re.compile(r"gripper|finger|thumb|knuckle", re.IGNORECASE)
-
-
-def _is_massless_frame(robot: Robot, link: Link) -> bool:
-    """Tell whether a link and its descendants have neither mass nor geometry."""
-    names = (link.name, *robot.tree.list_descendants(link.name))
-    return all(
-        one.mass == 0 and not one.visuals and not one.collisions
-        for one in (robot.link[name] for name in names if name in robot.link)
-    )
 
 
 def _covers_demand(robot: Robot, joint: Joint, limits: tuple[float, float]) -> bool:
@@ -113,19 +135,12 @@ def _covers_demand(robot: Robot, joint: Joint, limits: tuple[float, float]) -> b
     return limits[0] <= min(ends) and max(ends) <= limits[1]
 
 
-def _find_asymmetric_ranges(
-    robot: Robot, found: Sides, tolerance: float
-) -> Iterator[tuple[Pair, str, tuple[float, float]]]:
-    """Find pairs of joints with ranges that are not symmetric.
-
-    Yields:
-        The pair, the message about the right joint, and the range that mirrors the left joint [rad
-        or m].
-    """
+def _find_asymmetric_ranges(robot: Robot, found: Sides, tolerance: float) -> Iterator[_Unlike]:
+    """Find pairs of joints with ranges that are not symmetric."""
     for pair in found.pairs:
         if found.is_displaced(pair):
             continue
-        if any(_is_massless_frame(robot, link) for link in (pair.left, pair.right)):
+        if any(moves_nothing(robot, one, 0) for one in (pair.left_joint, pair.right_joint)):
             continue
         alike = found.is_mirrored_at_equal_positions(pair)
         left, right = _get_range(pair.left_joint), _get_range(pair.right_joint)
@@ -139,17 +154,7 @@ def _find_asymmetric_ranges(
             continue
         if _is_near(right, left, tolerance) and _GRIPPER.search(pair.right_joint.name):
             continue
-        name, twin = pair.right_joint.name, pair.left_joint.name
-        low, high = expected
-        if _is_near(right, other, tolerance):
-            what = "its axis or its limits have the wrong sign"
-        else:
-            what = f"the mirrored range is {low:g} to {high:g}"
-        message = (
-            f"range {right[0]:g} to {right[1]:g} of joint '{name}' is not the mirror image of the "
-            f"range of '{twin}': {what}"
-        )
-        yield pair, message, expected
+        yield _Unlike(pair, expected, right, _is_near(right, other, tolerance))
 
 
 @rule(

@@ -9,8 +9,11 @@ from ...model.elements import Robot
 from ...model.semantic import read_semantic
 from ...source.description import Description
 from ...source.document import Element
+from ..collision.convex_bodies import get_convex_bodies
+from ..collision.exact_contact import find_contact
+from ..collision.intended_overlap import are_fingers, is_telescope, list_joints_between
 from ..fix import FixContext, Proposal, remove_element, unsafe
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from ..words import join_some
 from .semantic import get_srdf_documents
 
@@ -49,7 +52,7 @@ def _judge_disabled(robot: Robot, description: Description) -> list[Judgement]:
 
 
 @rule(
-    ERROR,
+    WARNING,
     on=_ON,
     effects={
         "moveit": "plans motions in which the two links collide",
@@ -61,10 +64,12 @@ def disabled_pair_can_touch(robot: Robot, description: Description) -> Iterator[
     MoveIt does not check the pair, so a planned motion may drive the links into each other. The
     message has joint positions within the limits at which the collision geometry of both is in
     contact. MoveIt's Setup Assistant disables pairs that it never saw in contact at random poses.
-    Pairs with the reason ``User``, ``Default`` or ``Always`` are intended. Links that are disabled
-    as ``Adjacent`` without a common joint are findings of adjacent-through-bare-link. Of a robot
-    with many pairs, each is searched for a short time; ``urdftool srdf --check`` searches longer.
-    Requires python-fcl.
+    Pairs with the reason ``User``, ``Default`` or ``Always`` are intended, and so are pairs that
+    touch with all joints at zero, the stages of a telescope, and the fingers of a gripper, which
+    touch when it closes: MoveIt could not move these joints without the pair. Links that are
+    disabled as ``Adjacent`` without a common joint are findings of adjacent-through-bare-link. Of a
+    robot with many pairs, each is searched for a short time; ``urdftool srdf --check`` searches
+    longer. Requires python-fcl.
     """
     from ...srdf.content import format_positions
     from ...srdf.existing import REFUTED
@@ -72,6 +77,8 @@ def disabled_pair_can_touch(robot: Robot, description: Description) -> Iterator[
     for found in _judge_disabled(robot, description):
         if found.code == REFUTED and found.verdict is not None:
             pair = found.pair
+            if _is_disabled_rightly(robot, pair.link1, pair.link2):
+                continue
             reason = f" as {pair.reason}" if pair.reason else ""
             yield Problem(
                 pair,
@@ -80,6 +87,17 @@ def disabled_pair_can_touch(robot: Robot, description: Description) -> Iterator[
                 at=pair.element,
                 data={"positions": dict(found.verdict.positions)},
             )
+
+
+def _is_disabled_rightly(robot: Robot, one: str, other: str) -> bool:
+    """Tell whether two links touch in poses in which the robot works: at zero, or when it grips."""
+    joints = list_joints_between(robot, one, other)
+    if are_fingers(joints) or is_telescope(robot, one, other):
+        return True
+    poses = get_convex_bodies(robot).poses
+    if one not in poses or other not in poses:
+        return False
+    return find_contact(robot, robot.link[one], robot.link[other]) is True
 
 
 @rule(

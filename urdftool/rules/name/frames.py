@@ -51,8 +51,8 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
     the angle in the message: often 90° or 180°, or 120° if the rotation was forgotten.
     ``tolerance`` [rad] is the tolerated angle. An optical frame that looks along x of its camera's
     frame may be rolled so that its y axis, the columns of the image, points down with all joints
-    at rest, because the camera's frame is mounted upside down or on its side. Another roll by
-    180° about x is an info, because the camera may be mounted upside down in its frame.
+    at rest, because the camera's frame is mounted upside down or on its side. A roll by 180° about
+    x is not reported, because the camera may be mounted upside down in its frame.
     """
     poses: dict[str, Pose] | None = None
     for joint in robot.joints:
@@ -74,15 +74,14 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
                 compute_dot(row, expected) for row, expected in zip(rotation, _OPTICAL, strict=True)
             )
             angle = math.degrees(math.acos(max(-1.0, min(1.0, (turns - 1) / 2))))
+            if looks_ahead and angle > 179:
+                continue  # mounted upside down in the camera's frame
             way = "about the viewing direction" if looks_ahead else "from the viewing direction"
-            is_inverted = looks_ahead and angle > 179
-            unless = ", unless the camera is mounted upside down in it" if is_inverted else ""
             yield Problem(
                 joint,
                 f"optical frame '{joint.child}' is rotated by {angle:.3g}° {way} of "
-                f"'{joint.parent}'; write rpy=\"-1.5708 0 -1.5708\"{unless}",
+                f"'{joint.parent}'; write rpy=\"-1.5708 0 -1.5708\"",
                 at=joint.origin,
-                severity=INFO if is_inverted else None,
                 effects=("image_geometry (rolled)" if looks_ahead else "image_geometry",),
                 data={"angle": angle},
             )

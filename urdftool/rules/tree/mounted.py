@@ -13,6 +13,16 @@ _MOBILE = re.compile(
 """Words in the names of links and joints of robots that drive, walk, fly or swim."""
 
 
+_WHEEL = re.compile(r"wheel|caster|castor|track|footprint", re.IGNORECASE)
+"""Words in the names of links and joints of robots that drive."""
+
+
+def is_floating_base(robot: Robot) -> bool:
+    """Tell whether names show that a robot walks, flies or swims, and none that it drives."""
+    names = (*robot.link, *robot.joint)
+    return any(map(_MOBILE.search, names)) and not any(map(_WHEEL.search, names))
+
+
 def is_mobile(robot: Robot) -> bool:
     """Tell whether names or a floating joint show that the base of a robot moves freely."""
     names = (*robot.link, *robot.joint)
