@@ -29,15 +29,9 @@ def test_robot_for_another_simulator_gets_none(tmp_path):
     assert _found(file, targets=["mujoco"]) == []
 
 
-def test_classic_wants_colours_and_friction():
-    assert _found(CART, targets=["gazebo-classic"]) == [
-        ("link", "chassis", "info"),
-        ("link", "caster", "warning"),
-    ]
-
-
-def test_new_gazebo_takes_the_colours_of_urdf():
-    assert _found(CART, targets=["gz"]) == [("link", "caster", "warning")]
+@pytest.mark.parametrize("target", ["gazebo-classic", "gz"])
+def test_only_a_caster_needs_a_block(target):
+    assert _found(CART, targets=[target]) == [("link", "caster", "warning")]
 
 
 def test_dependency_of_the_package_is_a_sign(tmp_path):
@@ -84,14 +78,10 @@ LUMPED = """<robot name="arm">
         ("arm_camera", 0.1, "continuous", 1),
     ],
 )
-@pytest.mark.parametrize("rule", ["missing-gazebo-tags", "missing-gazebo-material"])
-def test_a_link_that_shows_its_color_is_not_counted(tmp_path, rule, name, size, kind, count):
-    block = f'<gazebo reference="{name}"><selfCollide>true</selfCollide></gazebo>'
+@pytest.mark.parametrize("has_block", [False, True])
+def test_a_link_that_shows_its_color_is_not_counted(tmp_path, has_block, name, size, kind, count):
+    block = f'<gazebo reference="{name}"><selfCollide>true</selfCollide></gazebo>' * has_block
     file = tmp_path / "arm.urdf"
-    file.write_text(
-        LUMPED.format(
-            name=name, size=size, kind=kind, block=block if rule.endswith("material") else ""
-        )
-    )
-    found = check(file, select=[rule], targets=["gazebo-classic"])
+    file.write_text(LUMPED.format(name=name, size=size, kind=kind, block=block))
+    found = check(file, select=["missing-gazebo-material"], targets=["gazebo-classic"])
     assert [finding.name for finding in found] == [name] * count

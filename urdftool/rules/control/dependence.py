@@ -1,4 +1,4 @@
-"""Tell whether the package of a robot uses ros_control in Gazebo."""
+"""Tell whether the package of a robot uses ros_control or ros2_control."""
 
 from __future__ import annotations
 
@@ -6,6 +6,10 @@ from ...source.description import Description
 from ...source.nearby_files import read_optional_document
 
 OF_CLASSIC = ("gazebo_ros_control",)
+OF_ROS2 = (
+    *("ros2_control", "ros2_controllers", "controller_manager", "hardware_interface"),
+    *("gazebo_ros2_control", "gz_ros2_control", "ign_ros2_control"),
+)
 OF_GAZEBO = (*OF_CLASSIC, "gazebo_ros2_control", "gz_ros2_control", "ign_ros2_control")
 
 

@@ -185,6 +185,7 @@ def add_state(problem: Problem, context: FixContext) -> Proposal | None:
     effects={
         "ros2_control": "has no interface for the joint, so no broadcaster reports its motion",
     },
+    group="robot",
 )
 def joint_outside_ros2_control(robot: Robot, description: Description) -> Iterator[Problem]:
     """A moving joint is not in any ``<ros2_control>`` block, but other joints are.
@@ -200,12 +201,18 @@ def joint_outside_ros2_control(robot: Robot, description: Description) -> Iterat
     for joint in robot.moving_joints:
         if any(pattern.fullmatch(joint.name) for pattern in optional):
             continue
-        if joint.mimic is None and joint.has_axis and joint.name not in known:
+        if (
+            joint.mimic is None
+            and joint.type not in ("planar", "floating")
+            and joint.has_axis
+            and joint.name not in known
+        ):
             yield Problem(
                 joint,
                 f"moving joint '{joint.name}' is not in <ros2_control>, so its state is not "
-                "published; "
-                "add it with a state interface",
+                "published; add it with a state interface",
+                group="{count} moving joints are not in <ros2_control>, so their state is not "
+                "published; add them with a state interface: {names}",
             )
 
 

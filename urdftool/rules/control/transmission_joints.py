@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Plugin, Robot, Transmission
+from ...source.description import Description
 from ..fix import (
     FixContext,
     Lines,
@@ -21,6 +22,7 @@ from ..fix import (
 from ..gazebo.lumping import is_lumped
 from ..joint.range import is_locked
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from .dependence import OF_ROS2, depends_on_control
 from .transmissions import describe_transmission
 
 APPLIES_TO = ("transmission", "plugin")
@@ -166,13 +168,16 @@ def _find_loop_joints(robot: Robot) -> Iterator[str]:
         "ros2_control": "reads only what is in <ros2_control>",
     },
 )
-def ros1_transmission_in_ros2(robot: Robot) -> Iterator[Problem]:
+def ros1_transmission_in_ros2(robot: Robot, description: Description) -> Iterator[Problem]:
     """A robot for ROS 2 has transmissions of ROS 1.
 
-    ros2_control reads transmissions inside ``<ros2_control>`` and ignores those in ``<robot>``. A
-    robot with a ROS 1 Gazebo plugin that reads them is not reported, even if its package is for ROS
-    2.
+    ros2_control reads transmissions inside ``<ros2_control>`` and ignores those in ``<robot>``. It
+    is reported only if the robot has a ``<ros2_control>``, or its package depends on ros2_control:
+    otherwise nothing reads transmissions. A robot with a ROS 1 Gazebo plugin that reads them is not
+    reported, even if its package is for ROS 2.
     """
+    if not robot.ros2_controls and not depends_on_control(description, OF_ROS2):
+        return
     if robot.transmissions and not any(_is_transmission_reader(one) for one in robot.plugins):
         first = robot.transmissions[0]
         count = len(robot.transmissions)

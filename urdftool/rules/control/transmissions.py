@@ -37,13 +37,25 @@ def describe_transmission(transmission: Transmission) -> str:
     return f"the transmission of joint '{joint}'" if joint else "a transmission"
 
 
-@rule(ERROR, effects={"gazebo_ros_control": "fails to start: no joint is controlled"})
-def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
+@rule(
+    ERROR,
+    effects={"gazebo_ros_control": "fails to start: no joint is controlled"},
+    group="robot",
+)
+def transmission_unknown_joint(
+    robot: Robot, description: Description, targets: frozenset[str]
+) -> Iterator[Problem]:
     """A transmission refers to a joint that does not exist.
 
     ``gazebo_ros_control`` stops at the first unknown joint, so no joint of the robot is controlled.
-    Many hardware drivers do the same.
+    Many hardware drivers do the same. Without that plugin, and without a package that depends on
+    it, it is a warning. It is not reported in ROS 2 for a robot with ``<ros2_control>``, of which
+    ``ros1-transmission-in-ros2`` says that nothing reads the transmissions.
     """
+    is_read = _has_control_plugin(robot) or depends_on_control(description)
+    if not is_read and robot.ros2_controls and "ros2" in targets:
+        return
+    severity = None if is_read else WARNING
     driven = {joint.name for transmission in robot.transmissions for joint in transmission.joints}
     idle = [name for name, joint in robot.joint.items() if name not in driven and joint.has_axis]
     for transmission in robot.transmissions:
@@ -54,6 +66,9 @@ def transmission_unknown_joint(robot: Robot) -> Iterator[Problem]:
                     f"{describe_transmission(transmission)} refers to joint '{joint.name}', "
                     f"which does not exist{suggest_name(joint.name, idle, 0.8)}",
                     at=joint.locate_attribute("name"),
+                    severity=severity,
+                    effects=None if is_read else (),
+                    group="{count} transmissions refer to joints that do not exist: {names}",
                     data={"joint": joint.name, "suggestion": find_nearest(joint.name, idle, 0.8)},
                 )
 

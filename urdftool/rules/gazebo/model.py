@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ...model.elements import Joint, Link, Robot
 from ...model.settings import is_set
 from ...source.description import Description
-from ...source.document import parse
+from ...source.document import parse, parse_once
 from ..control.dependence import OF_GAZEBO, depends_on_control
 from ..cross_file_references import check_not_included
 from ..fix import (
@@ -112,6 +112,13 @@ _DRIVES = re.compile(
     re.IGNORECASE,
 )
 
+_SENSES = re.compile(
+    r"(?<![a-z])(camera|kinect|depth|laser|lidar|ray|imu|gps|sonar|range|bumper|contact|ft|force|"
+    r"p3d|magnetometer|sensors?)(?![a-z])",
+    re.IGNORECASE,
+)
+"""Libraries of sensors and of ground truth, which show nothing about drives."""
+
 _REPORTS = re.compile(r"joint[-_]?state", re.IGNORECASE)
 
 
@@ -143,6 +150,9 @@ def missing_control_plugin(
     with a part for Gazebo in a xacro condition are not reported. For a robot with two wheels on one
     axle about its y axis, the message has the parameters of a differential drive.
 
+    A plugin in an XML comment counts as one that the author left out. A file whose plugins are all
+    of sensors is reported as one without.
+
     A file without plugins, transmissions and ``<ros2_control>`` is not reported, because a world,
     a wrapper or a program may add the plugin, nor one without plugins that only a ``<gazebo>`` tag
     shows to be for Gazebo: unless its package depends on a control plugin of
@@ -166,8 +176,9 @@ def missing_control_plugin(
         return
     acting = [text for text in plugins if _DRIVES.search(text)]
     reported = any(_REPORTS.search(text) for text in acting)
-    if any(not _REPORTS.search(text) for text in acting):
+    if any(not _REPORTS.search(text) for text in acting) or _has_commented_plugin(description):
         return
+    plugins = [text for text in plugins if not _SENSES.search(text.partition(" ")[0])]
     pair = find_wheel_pair(robot) if "gz" in targets - guessed else None
     controls = robot.transmissions or robot.ros2_controls
     is_named = not targets.isdisjoint(GAZEBO) and targets.isdisjoint(guessed)
@@ -235,6 +246,15 @@ def add_control_plugin(problem: Problem, context: FixContext) -> Proposal | None
     )
 
 
+def _has_commented_plugin(description: Description) -> bool:
+    """Tell whether a plugin that may drive joints is in a comment of a file."""
+    return any(
+        "<plugin" in comment.text and _DRIVES.search(comment.text)
+        for file in description.files
+        for comment in parse_once(file).comments
+    )
+
+
 _FOR_GAZEBO = re.compile(r"gazebo|(?<![a-z])(gz|ign|sim)(?![a-z])", re.IGNORECASE)
 
 
@@ -259,7 +279,7 @@ def _has_gazebo_part(description: Description) -> bool:
     },
 )
 def root_not_anchored(robot: Robot) -> Iterator[Problem]:
-    """An arm is not fixed to the world.
+    """A robot without wheels and legs is not fixed to the world.
 
     Gazebo loads the root of a robot as a free body, so an arm without wheels or legs falls over
     when it moves. Add a link named ``world`` and a fixed joint. A robot with root
@@ -271,8 +291,8 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
     if is_arm(robot):
         yield Problem(
             robot,
-            f"root '{root.name}' of the arm '{robot.name}' is not fixed to the world; add a link "
-            "'world' and a fixed joint",
+            f"root '{root.name}' of '{robot.name}', which has no wheel or leg, is not fixed to the "
+            "world, so its base moves freely; add a link 'world' and a fixed joint",
             at=root,
             data={"link": root.name},
         )

@@ -189,7 +189,7 @@ def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
     },
 )
 def missing_gz_frame_id(
-    robot: Robot, targets: frozenset[str], *, together: float = 4
+    robot: Robot, targets: frozenset[str], guessed: frozenset[str], *, together: float = 4
 ) -> Iterator[Problem]:
     """A sensor has no ``<gz_frame_id>``.
 
@@ -200,8 +200,11 @@ def missing_gz_frame_id(
     one: with the link of the sensor its data would be displaced. More than ``together`` sensors of
     a kind are one finding. Without ROS among the targets it is an info, and sensors for which no
     link exists are not reported, because no reader may need TF for their data; neither are any
-    sensors if plugins of the robot pass data to YARP instead.
+    sensors if plugins of the robot pass data to YARP instead, or if only a ``<gazebo>`` tag shows
+    that the robot is for new Gazebo.
     """
+    if "gz" in guessed:
+        return
     severity = INFO if targets.isdisjoint(ROS) else None
     if severity is INFO and any(
         is_for_yarp(one.element) for block in robot.gazebo for one in block.plugins

@@ -71,15 +71,18 @@ def write_implicit_spring_damper(problem: Problem, context: FixContext) -> Propo
         "gz": "keeps it in the SDF, where gz-physics does not read it for DART",
     },
 )
-def no_effect_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+def no_effect_in_gz(
+    robot: Robot, targets: frozenset[str], guessed: frozenset[str]
+) -> Iterator[Problem]:
     """A setting of Gazebo Classic has no effect in new Gazebo.
 
     Contact stiffness and damping, contact counts, stops and feedback are settings of ODE. sdformat
     keeps them in the SDF, but gz-sim and its physics engines ignore them. Friction (mu1, mu2,
-    fdir1) has an effect. Robots for Gazebo Classic are not reported. If the description has no
-    plugin for new Gazebo, the finding is an info, because the settings may be for Gazebo Classic.
+    fdir1) has an effect. Robots for Gazebo Classic are not reported, nor those that only a
+    ``<gazebo>`` tag shows to be for new Gazebo. If the description has no plugin for new Gazebo,
+    the finding is an info, because the settings may be for Gazebo Classic.
     """
-    if "gazebo-classic" in targets:
+    if "gazebo-classic" in targets or "gz" in guessed:
         return
     found: dict[str, list[tuple[Element, Element]]] = {}
     for block in robot.gazebo:

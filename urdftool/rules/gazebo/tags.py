@@ -18,7 +18,7 @@ from ..fix import (
     safe,
     unsafe,
 )
-from ..rule import GAZEBO, INFO, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule, select_holding
+from ..rule import GAZEBO, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest
 from .contact import get_contact_role, has_friction
@@ -35,79 +35,49 @@ _GRAY = 0.06
 """Largest difference of the channels of a color that looks like the default of Gazebo Classic."""
 
 
-_WITHOUT_BLOCK = {
-    "gz, gazebo-classic (without friction)": "take a friction of 1, the default of SDF",
-    "gz (without a color)": "takes the color of the URDF (sdformat 12.3)",
-}
-
-
 @rule(
     WARNING,
     on=("gazebo-classic", "gz"),
-    effects=_WITHOUT_BLOCK,
+    effects={
+        "gz, gazebo-classic": "take a friction of 1, the default of SDF",
+    },
     group="robot",
 )
-def missing_gazebo_tags(
-    robot: Robot, targets: frozenset[str], guessed: frozenset[str]
-) -> Iterator[Problem]:
-    """A link has no ``<gazebo>`` block although it needs one.
+def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+    """A caster has no ``<gazebo>`` block although it needs one.
 
-    URDF has no friction, and Gazebo Classic ignores URDF colors: ``<gazebo reference="the link">``
-    sets both. A caster that slides needs the block for its friction; the default of 1 is right for
-    wheels, feet and fingers of rubber. In Gazebo Classic a link with a colored visual needs it too;
-    this case is an info, and markers of at most 1 cm are ignored. It is reported only if a plugin,
-    a package.xml, a launch file or ``--target`` names Gazebo Classic.
-    ``missing-friction`` and ``missing-gazebo-material`` report incomplete blocks. Robots for other
-    targets are not reported.
+    URDF has no friction: ``<gazebo reference="the link">`` sets it. A caster that slides needs the
+    block; the default of 1 is right for wheels, feet and fingers of rubber. ``missing-friction``
+    reports blocks without it. Robots for other targets are not reported.
     """
     if targets.isdisjoint(GAZEBO) or _is_unclear(robot):
         return
-    colors = _collect_materials(robot)
     names = {*robot.link, *robot.joint}
     meant = {find_nearest(name, names) for name in robot.extensions if name and name not in names}
     for link in robot.links:
         if robot.extensions.get(link.name) or link.name in meant:
             continue
-        role = _get_role(robot, link)
-        if role != "caster" or _has_from_body(robot, link, _has_friction):
-            role = None
-        needs = [_FRICTION[role]] if role else []
-        cases = ["without friction"] if role else []
-        if "gazebo-classic" in targets - guessed and _is_shown_gray(robot, link, colors):
-            needs.append("<material>, because Gazebo Classic ignores the colors of a URDF")
-            cases.append("without a color")
-        if needs:
-            kind = f"{role} '{link.name}'" if role else f"link '{link.name}'"
-            needed = " and ".join(needs)
-            yield Problem(
-                link,
-                f'{kind} has no <gazebo reference="{link.name}">; it needs {needed}',
-                severity=None if role else INFO,
-                data={"role": role or ""},
-                alike=(role == "caster", *cases),
-                effects=select_holding(_WITHOUT_BLOCK, *cases),
-                group="{count} links have no <gazebo> block, and need "
-                f"{needed.replace(' its ', ' their ')}: {{names}}",
-            )
+        if _get_role(robot, link) != "caster" or _has_from_body(robot, link, _has_friction):
+            continue
+        needed = _FRICTION["caster"]
+        yield Problem(
+            link,
+            f"caster '{link.name}' has no <gazebo reference=\"{link.name}\">; it needs {needed}",
+            group="{count} casters have no <gazebo> block, and need "
+            f"{needed.replace('it slides', 'they slide')}: {{names}}",
+        )
 
 
 @missing_gazebo_tags.fix(UNSAFE)
 def add_block(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add a block with friction, and with the color for Gazebo Classic."""
+    """Add a block with friction."""
     if not isinstance(problem.subject, Link):
         return None
-    link, robot = problem.subject, context.robot
-    inside: list[str] = []
-    if _get_role(robot, link) == "caster":
-        inside += ["<mu1>0.0</mu1>", "<mu2>0.0</mu2>"]
-    if "gazebo-classic" in context.targets and _is_shown_gray(
-        robot, link, _collect_materials(robot)
-    ):
-        lines = format_material(link, robot)
-        if lines is not None:
-            inside += ["<visual>", *(f"\t{line}" for line in lines), "</visual>"]
-    if not inside:
-        return None
+    return _add_block(problem.subject, "<mu1>0.0</mu1>", "<mu2>0.0</mu2>")
+
+
+def _add_block(link: Link, *inside: str) -> Proposal:
+    """Propose a ``<gazebo>`` block of a link."""
     block = (
         f'<gazebo reference="{escape_attribute(get_written_value(link.element, "name"))}">',
         *(f"\t{line}" for line in inside),
@@ -128,44 +98,54 @@ def _is_unclear(robot: Robot) -> bool:
         "gz": "takes the color of the URDF (sdformat 12.3)",
     },
     group="robot",
+    default=False,
 )
 def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
-    """A link with a color has a ``<gazebo>`` block without a material.
+    """A link with a color has no material for Gazebo Classic.
 
     Gazebo Classic ignores URDF colors and shows the link in gray. Write
-    ``<material>Gazebo/Red</material>``, or the color in ``<visual><material>``. New Gazebo reads
-    URDF colors. ``missing-gazebo-tags`` reports links without a block; gray visuals and markers of
-    at most 1 cm are ignored.
+    ``<material>Gazebo/Red</material>``, or the color in ``<visual><material>``, into
+    ``<gazebo reference="the link">``. New Gazebo reads URDF colors. Gray visuals and markers of at
+    most 1 cm are ignored.
     """
     if _is_unclear(robot):
         return
     colors = _collect_materials(robot)
+    names = {*robot.link, *robot.joint}
+    meant = {find_nearest(name, names) for name in robot.extensions if name and name not in names}
     for link in robot.links:
         blocks = robot.extensions.get(link.name, [])
-        if blocks and not _has_material(robot, link) and _is_shown_gray(robot, link, colors):
-            yield Problem(
-                link,
-                f"link '{link.name}' has a color that Gazebo Classic ignores; write "
-                f'<material> into its <gazebo reference="{link.name}">',
-                at=blocks[0],
-                group="{count} links with a <gazebo> block have a color that Gazebo Classic "
-                "ignores; write <material> into their <gazebo> blocks: {names}",
-            )
+        if link.name in meant or _has_material(robot, link):
+            continue
+        if not _is_shown_gray(robot, link, colors):
+            continue
+        where = "its" if blocks else "a new"
+        yield Problem(
+            link,
+            f"link '{link.name}' has a color that Gazebo Classic ignores; write <material> into "
+            f'{where} <gazebo reference="{link.name}">',
+            at=blocks[0] if blocks else None,
+            alike=bool(blocks),
+            group="{count} links have a color that Gazebo Classic ignores; write <material> into "
+            f"{'their' if blocks else 'new'} <gazebo> blocks: {{names}}",
+        )
 
 
-@missing_gazebo_material.fix(SAFE)
+@missing_gazebo_material.fix(UNSAFE)
 def write_material(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the color of the URDF into the block."""
+    """Write the color of the URDF into the block, or into a new one."""
     link = context.get_link(problem)
     lines = format_material(link, context.robot)
-    blocks = context.robot.extensions.get(link.name)
-    if lines is None or not blocks:
+    if lines is None:
         return None
+    inside = ("<visual>", *(f"\t{line}" for line in lines), "</visual>")
+    blocks = context.robot.extensions.get(link.name)
+    if not blocks:
+        return _add_block(link, *inside)
     block = blocks[0].element
     visual = block.find_child("visual")
     if visual is not None:
         return safe("write its color", append_child(visual, *lines))
-    inside = ("<visual>", *(f"\t{line}" for line in lines), "</visual>")
     return safe("write its color", append_child(block, *inside))
 
 

@@ -17,8 +17,10 @@ from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, UNSAFE, URDF_AND_SDF, WARNIN
 from ..words import join_some
 from .bodies import compute_mass, find_massless_pairs, find_rigid_bodies
 from .density import GOLD
+from .known_size import measure_known_size
 from .light_body import find_light_body
-from .solids import compute_solid_moments, compute_volume, is_helper
+from .markers import is_anchor, is_marker
+from .solids import compute_volume, is_helper
 from .tensors import has_written_inertial
 
 _AS_PART = ("gz, gazebo-classic, pinocchio (part)", "mujoco (part)", "drake (part)")
@@ -229,6 +231,7 @@ def write_magnitude(problem: Problem, _context: FixContext) -> Proposal | None:
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "take it as written",
     },
     of_motion=True,
+    group="robot",
     formats=URDF_AND_SDF,
 )
 def implausible_mass(
@@ -237,8 +240,10 @@ def implausible_mass(
     """A mass is above ``heaviest`` [kg] or below ``lightest`` [kg].
 
     Masses are in kilograms; a mass in grams makes the link a thousand times too heavy. The limits
-    are one metric ton and 10 mg. Frames without geometry may be lighter, because simulators
-    require a mass even for them, and so may stickers on links of ten times their mass.
+    are one metric ton and 10 mg. A link is not too heavy if its known shapes and its joints are as
+    far apart as the edge of a cube of water of its mass, as those of a car. Frames without geometry
+    may be lighter, because simulators require a mass even for them, and so may stickers on links of
+    ten times their mass.
     """
     reach = get_extents(robot)
     for link, mass, place in _get_masses(robot):
@@ -248,6 +253,8 @@ def implausible_mass(
         ):
             continue  # implausible-density reports it more precisely
         if mass > heaviest:
+            if mass < _WATER * measure_known_size(robot, link) ** 3:
+                continue  # a vehicle
             what = f"{mass:g} kg; if the unit is grams, write {mass / 1000:g}"
         elif 0 < mass < lightest and (link.visuals or link.collisions):
             if sum(other.mass for other, _ in reach.get_attached(link)[1:]) >= 10 * mass:
@@ -284,6 +291,7 @@ def implausible_density(
     least_possible: float = 1.0,
     most_possible: float = GOLD,
     small: float = 0.02,
+    marker: float = 0.01,
     dummy: float = 1e-3,
     most_of_box: float = 8000.0,
     together: float = 6,
@@ -298,12 +306,15 @@ def implausible_density(
     most ``most_of_box``, and air about ``least_possible``. It is only an info if a material could
     have the density, for links smaller than ``small`` [m], which mostly mark frames, and for links
     of up to ``dummy`` [kg] that are fixed to others, as sensor frames are for Gazebo. Not reported
-    are links named fake, dummy, marker or virtual of at most 1 cm, and a root whose mass is a power
-    of ten of at least 100 kg with the inertia of that mass: a stand. Small links that are fixed to
-    links of ten times their mass are skipped. More than ``together`` infos are reported as one
-    finding.
+    as too heavy are links of at most ``marker`` [m] that are not the root, whose shape marks a
+    place. Not reported are links named fake, dummy, marker or virtual of at most 1 cm, and a root
+    whose mass is a power of ten of at least 100 kg with the inertia of that mass: a stand. Small
+    links that are fixed to links of ten times their mass are skipped. More than ``together`` infos
+    are reported as one finding.
     """
-    bounds = _DensityBounds(least, most, least_possible, most_possible, small, dummy, most_of_box)
+    bounds = _DensityBounds(
+        least, most, least_possible, most_possible, small, marker, dummy, most_of_box
+    )
     found = list(_find_densities(robot, bounds))
     yield from (_report_density(one) for one in found if one.impossible)
     remarks = [one for one in found if not one.impossible]
@@ -321,6 +332,10 @@ def report_every_implausible_density(robot: Robot) -> Iterator[Problem]:
     return map(_report_density, _find_densities(robot, _DensityBounds(), of_body=False))
 
 
+_WATER = 1000.0
+"""[kg/m³]"""
+
+
 class _DensityBounds(NamedTuple):
     """Thresholds of :func:`implausible_density`, without ``together``."""
 
@@ -329,6 +344,7 @@ class _DensityBounds(NamedTuple):
     least_possible: float = implausible_density.thresholds["least_possible"]
     most_possible: float = implausible_density.thresholds["most_possible"]
     small: float = implausible_density.thresholds["small"]
+    marker: float = implausible_density.thresholds["marker"]
     dummy: float = implausible_density.thresholds["dummy"]
     most_of_box: float = implausible_density.thresholds["most_of_box"]
 
@@ -366,7 +382,7 @@ def _find_densities(
         density, in_box = _compute_density(reach.get_link_box(link), link, mass)
         if any(find_shapes_in_millimeters(link)) or _is_incomplete(link):
             continue
-        if is_helper(link) or _is_anchor(robot, link):
+        if is_helper(link) or is_anchor(robot, link):
             continue
         most = bounds.most_of_box if in_box else bounds.most
         if density is None or bounds.least <= density <= most:
@@ -377,7 +393,7 @@ def _find_densities(
             reach, link, density, bounds.least, bounds.most_of_box
         ):
             continue
-        if density > bounds.most and _is_marker(reach, link, mass, bounds.small):
+        if density > most and is_marker(robot, link, mass, bounds.small, bounds.marker):
             continue
         impossible = density > bounds.most_possible or density < bounds.least_possible
         box = reach.get_link_box(link)
@@ -399,32 +415,6 @@ def _report_density(found: _Density, also: str = "") -> Problem:
         alike=(found.in_box, bool(also)),
         data={"mass": link.mass, "density": found.density, "is_too_large": found.too_heavy},
     )
-
-
-def _is_marker(reach: LinkExtents, link: Link, mass: float, small: float) -> bool:
-    """Tell whether a link is smaller than ``small`` [m] and fixed to much heavier links."""
-    box = reach.get_link_box(link)
-    if box is None or max(box.size) >= small:
-        return False
-    return sum(other.mass for other, _ in reach.get_attached(link)[1:]) >= 10 * mass
-
-
-def _is_anchor(robot: Robot, link: Link) -> bool:
-    """Tell whether a root of a round mass, from which its inertia was computed, is a stand."""
-    if robot.tree.get_parent_joint(link.name) is not None or link.mass < _HEAVY_STAND:
-        return False
-    power = math.log10(link.mass)
-    solid, inertial = compute_solid_moments(link), link.inertial
-    if abs(power - round(power)) > 1e-9 or solid is None or inertial is None:
-        return False
-    written = inertial.inertia.moments if inertial.inertia is not None else ()
-    return bool(written) and all(
-        0.5 * right <= one <= 2 * right for one, right in zip(written, solid, strict=True)
-    )
-
-
-_HEAVY_STAND = 100.0
-"""[kg] A root of this mass and more is a stand if its mass is a power of ten. Chosen, no source."""
 
 
 def _is_fixed(robot: Robot, link: Link) -> bool:

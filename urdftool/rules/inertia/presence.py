@@ -34,6 +34,7 @@ from ..symmetry import find_twin
 from ..tree.mounted import is_arm, is_floating_base
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
+from .device_frames import is_far_heavier, is_frame_of_device
 from .light_body import find_light_body
 from .solids import DENSITY, compute_volume
 from .tensors import has_written_inertial
@@ -45,6 +46,10 @@ _MARKER = 1e-3
 _REMOVED = "Gazebo removes the link and everything attached to it"
 _ALL_REMOVED = "Gazebo removes them and everything attached to them"
 _HINT = "'urdftool inertia robot --write --mass LINK=KG' computes one from its geometry"
+_AS_PART = (
+    "PyBullet gives {} 1 kg in addition to {} body's mass. Write a small <inertial> if PyBullet is "
+    "to read the robot"
+)
 _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-classic (part)"}
 
 
@@ -73,7 +78,9 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     the collision geometry at the density of water. If a fixed joint attaches the link to one with
     a mass, it is only an info, unless the link of the other side has one, or that mass is less
     than that of air of the link's size, and except for PyBullet and MuJoCo, which substitute a mass
-    there too.
+    there too. This info is not given for markers of at most 1 cm, for frames of tools and sensors
+    by name of at most 6 cm, for links that are fixed to the world, and where the 1 kg of PyBullet
+    is less than a fiftieth of the robot's mass.
     The mass of a link that is fixed to the world matters only to Gazebo.
     Frames without geometry need none, although PyBullet gives them 1 kg, nor does a frame with a
     marker below 1 g at the density of water that is fixed to a link with a mass. Another such
@@ -111,11 +118,10 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             so = "; MuJoCo computes a mass at the density of water"
             several = "; MuJoCo computes their masses at the density of water"
         elif link.name in heavy:
-            others = [one for one, _ in find_attached_links(robot, link) if one.mass > 0]
             twin = find_twin(robot, link)
             outcome, severity = "part", INFO
-            so = f", and is fixed to link '{others[0].name}', which has one"
-            several = ", and are fixed to links that have one"
+            so = f"; {_AS_PART.format('it', 'its')}"
+            several = f"; {_AS_PART.format('each of them', 'their')}"
             if twin is not None and twin.inertial is not None and twin.mass > 0:
                 outcome, severity = "half", WARNING
                 so = f", but its mirror image '{twin.name}' has one"
@@ -124,8 +130,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
                 outcome, severity = "light", WARNING
                 so = f", and the links fixed to it {light.describe()}"
                 several = ", and the links fixed to them are lighter than air of their size"
-            elif _is_marker(link):
-                continue  # the frame of a tool or sensor, with a shape to show it
+            elif held or _is_marker(link) or is_frame_of_device(robot, link) or is_far_heavier(robot):
+                continue
         elif held and not targets.isdisjoint(("mujoco", "pybullet")):
             continue  # its mass has no effect there
         elif held:

@@ -207,7 +207,12 @@ def _spread(link: Link) -> float:
     formats=ANY_FORMAT,
 )
 def com_not_mirrored(
-    robot: Robot, *, least: float = 0.002, similar: float = 0.1, clear: float = 0.05
+    robot: Robot,
+    *,
+    least: float = 0.002,
+    similar: float = 0.1,
+    clear: float = 0.05,
+    slight: float = 1e-4,
 ) -> Iterator[Problem]:
     """A link's center of mass has the wrong sign, compared with the link of the other side.
 
@@ -222,8 +227,9 @@ def com_not_mirrored(
     reported. Both ``xyz`` of the message are in the link frame, as the file has them. The fix
     writes the signs of the products of inertia too.
 
-    ``least`` [m] is the smallest coordinate that is compared, ``similar`` the relative difference
-    of two equal ones, and ``clear`` the part of the size of a link by which its geometry must lie
+    It is an info if it moves the center of mass of the robot by less than ``slight`` [m]. ``least``
+    [m] is the smallest coordinate that is compared, ``similar`` the relative difference of two
+    equal ones, and ``clear`` the part of the size of a link by which its geometry must lie
     to one side.
     """
     found = get_sides(robot)
@@ -264,19 +270,25 @@ def com_not_mirrored(
         link, twin = (pair.left, pair.right) if odd_left else (pair.right, pair.left)
         right_one = right if odd_left else left
         image = mirror_image(found, link, right_one)
-        where = "on the same side as" if sign < 0 else "on the other side than"
         assert link.inertial is not None
-        assert link.inertial.origin is not None
+        assert twin.inertial is not None
+        origin, other = link.inertial.origin, twin.inertial.origin
+        assert origin is not None
+        assert other is not None
         products = _find_copied_products(found, link, twin)
         remedy = f'write xyz="{image}"' if link.xml is not None else "check its sign"
         if products and link.xml is not None:
             remedy += f" and the opposite sign of {', '.join(products)}"
-        xyz = " ".join(f"{value:.6g}" for value in link.inertial.origin.xyz)
+        xyz, of_twin = (
+            " ".join(f"{value:.6g}" for value in one) for one in (origin.xyz, other.xyz)
+        )
+        moved = 2 * abs(left[axis]) * link.mass / sum(one.mass for one in robot.links)
         yield Problem(
             link,
-            f"center of mass xyz=\"{xyz}\" of link '{link.name}' is {where} that of "
-            f"'{twin.name}', but {why}; {remedy}",
-            at=link.inertial.origin or link.inertial,
+            f"center of mass xyz=\"{xyz}\" of link '{link.name}' is not the mirror image of "
+            f"xyz=\"{of_twin}\" of '{twin.name}', but {why}; {remedy}",
+            at=origin,
+            severity=INFO if moved < slight else None,
             data={
                 "twin": twin.name,
                 "axis": "xyz"[axis],

@@ -33,6 +33,7 @@ from .corrections import (
 )
 from .density import find_outliers
 from .frame import compute_tensor_about_com
+from .known_size import measure_known_size
 from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
 from .solids import compute_solid_moments, describe_solid, is_dummy
 from .tensors import SIX, get_tensors, is_accepted, is_positive, is_zero
@@ -406,7 +407,7 @@ def radius_of_gyration(
         around = reach.get_body_box(link)
         if around is not None and radius <= math.dist(*around):
             continue  # the inertia is that of the whole body
-        if radius <= _measure_known_size(robot, link) / 2:
+        if radius <= measure_known_size(robot, link) / 2:
             continue
         data: dict[str, object] = {"radius": radius}
         if radius > largest:
@@ -426,19 +427,6 @@ def radius_of_gyration(
             effects=_select_readers(six),
             data=data,
         )
-
-
-def _measure_known_size(robot: Robot, link: Link) -> float:
-    """Measure the diagonal of the box of a link's known shapes and of its joints [m]."""
-    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
-    boxes = [get_extents(robot).get_shape_box(one) for one in shapes]
-    points = [point for box in boxes if box is not None for point in box]
-    joints = robot.tree.get_child_joints(link.name)
-    points += [make_pose(joint.origin).translation for joint in joints]
-    if not points:
-        return 0.0
-    columns = list(zip(*points, strict=True))
-    return math.dist([min(one) for one in columns], [max(one) for one in columns])
 
 
 def _may_be_kg_mm2(radius: float) -> bool:

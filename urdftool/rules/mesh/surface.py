@@ -113,8 +113,8 @@ def not_watertight(
     An open surface has no defined inside, so mass, center of mass and inertia that are computed
     from it are wrong. Simulators compute them for a link without an inertial; contacts are not
     affected, because they use the convex hull or the triangles. It is reported if closing the
-    holes changes volume, center or inertia by more than ``change`` (relative). One finding names
-    all such links.
+    holes changes volume, center or inertia by more than ``change`` (relative), as MuJoCo computes
+    them from a URDF: without the signs of volumes. One finding names all such links.
     """
     found: list[tuple[MeshUse, str]] = []
     for use, path, surface in _read_surfaces(robot, description, _has_computed_mass):
@@ -126,8 +126,8 @@ def not_watertight(
             found.append(
                 (
                     use,
-                    f"{surface.open_edges} open edges (closing them changes volume, center or "
-                    f"inertia {much})",
+                    f"{surface.open_edges} edges have an odd number of triangles (closing the "
+                    f"holes changes volume, center or inertia in MuJoCo {much})",
                 )
             )
     yield from _combine_findings(

@@ -1,0 +1,35 @@
+"""Tell which links without mass are frames of tools and sensors."""
+
+from __future__ import annotations
+
+import re
+
+from ...model.elements import Link, Robot
+from ..mesh.link_extents import get_extents
+
+
+def is_frame_of_device(robot: Robot, link: Link) -> bool:
+    """Tell whether the shape of a link marks a place, or is that of a small tool or sensor."""
+    box = get_extents(robot).get_link_box(link)
+    if box is None:
+        return False
+    largest = _SMALL_DEVICE if _DEVICE.search(link.name) else _MARKED
+    return max(box.size) <= largest
+
+
+_DEVICE = re.compile(
+    r"(?<![a-z])(tool0?|tcp|ee|end_?effector|imu|gps|gnss|camera|cam|lidar|laser|scan|mid360|"
+    r"sensor|optical|realsense|zed|tag|aruco|frame|mount)(?![a-z])",
+    re.IGNORECASE,
+)
+_MARKED, _SMALL_DEVICE = 0.01, 0.06
+"""Largest size [m] of a marker, and of a tool or sensor that needs no mass. Chosen, no source."""
+
+
+def is_far_heavier(robot: Robot) -> bool:
+    """Tell whether the robot has fifty times the 1 kg that PyBullet substitutes."""
+    return sum(link.mass for link in robot.links) >= _FAR_HEAVIER
+
+
+_FAR_HEAVIER = 50.0
+"""[kg]. Chosen, no source."""
