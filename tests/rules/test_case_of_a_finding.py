@@ -157,7 +157,7 @@ def test_what_stands_before_the_declaration(write, start, case):
     assert found.effects["xacro"].startswith("rejects the file")
 
 
-def test_a_link_without_friction_matters_more_than_one_without_a_color(write):
+def test_a_link_without_friction_needs_a_block_and_one_without_a_color_does_not(write):
     foot = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
     text = robot(
         LINK.format("base"),
@@ -169,7 +169,6 @@ def test_a_link_without_friction_matters_more_than_one_without_a_color(write):
     found = check(write("r.urdf", text), select=["missing-gazebo-tags"], targets=["gazebo-classic"])
     assert [(f.name, f.severity.label, list(f.effects)) for f in found] == [
         ("left_caster", "warning", ["gz, gazebo-classic"]),
-        ("arm", "info", ["gz"]),
     ]
 
 
@@ -206,7 +205,8 @@ def test_a_plugin_in_an_attribute_is_a_sign_of_gazebo_classic(write):
     assert "gazebo-classic" in report.targets
     assert report.findings == []
     report = check_file(write("s.urdf", f"{moved}{kp}</robot>"), Options(line))
-    assert [(f.code, f.severity.label) for f in report.findings] == [("no-effect-in-gz", "info")]
+    assert "gz" in report.targets
+    assert report.findings == []  # a <gazebo> tag alone may be for either Gazebo
 
 
 @pytest.mark.parametrize(("name", "count"), [("caster_1", 0), ("suspension", 0), ("elbow", 1)])

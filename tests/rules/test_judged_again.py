@@ -316,7 +316,7 @@ def test_a_tiny_sphere_of_a_helper_link_is_not_a_body(tmp_path, name, count):
     parts = [
         LINK.format("base", BODY.format(mass=1, moment=0.01)),
         LINK.format(name, BODY.format(mass=0.01, moment=1e-4) + ball.format(*["visual"] * 2)),
-        JOINT.format("j", "continuous", "base", name, ""),
+        JOINT.format("j", "continuous", name, "base", ""),
     ]
     assert len(find(tmp_path, "implausible-density", *parts)) == count
 

@@ -52,6 +52,7 @@ def test_a_mesh_without_its_colors_is_a_remark(write, mesh, text, severity):
 def test_transmissions_that_a_plugin_of_ros_1_reads_are_in_place(write, plugin, count):
     more = '<transmission name="t"><type>x</type><joint name="j"/></transmission>'
     more += f'<gazebo><plugin name="p" filename="{plugin}"/></gazebo>'
+    more += '<ros2_control name="s" type="system"/>'
     path = write("r.urdf", PAIR.format(more, LIMIT))
     assert len(found(path, "ros1-transmission-in-ros2", targets=["ros2"])) == count
 

@@ -106,7 +106,7 @@ def _combine_findings(
     },
 )
 def not_watertight(
-    robot: Robot, description: Description, *, change: float = 0.01
+    robot: Robot, description: Description, *, change: float = 0.05
 ) -> Iterator[Problem]:
     """The surface of a collision mesh has a hole, and its link has no ``<inertial>``.
 
