@@ -145,7 +145,7 @@ def test_feedback_of_a_fixed_joint_is_missed_by_a_plugin_that_names_it(tmp_path,
     options = {"targets": ["gazebo-classic"]}
     found = find(tmp_path, "lumped-joint-loses-content", *parts, block, **options)
     assert label(found) == ["warning"] * count
-    assert all("plugin 'ft' names it" in message for _, message in found)
+    assert all("plugin that names it" in message for _, message in found)
 
 
 @pytest.mark.parametrize(

@@ -49,8 +49,8 @@ def transmission_unknown_joint(
 
     ``gazebo_ros_control`` stops at the first unknown joint, so no joint of the robot is controlled.
     Many hardware drivers do the same. Without that plugin, and without a package that depends on
-    it, it is a warning. It is not reported in ROS 2 for a robot with ``<ros2_control>``, of which
-    ``ros1-transmission-in-ros2`` says that nothing reads the transmissions.
+    it, it is a warning. It is not reported in ROS 2 for a robot with ``<ros2_control>``, where
+    nothing reads the transmissions (``ros1-transmission-in-ros2``).
     """
     is_read = _has_control_plugin(robot) or depends_on_control(description)
     if not is_read and robot.ros2_controls and "ros2" in targets:

@@ -1,4 +1,4 @@
-"""Tell which links without mass are frames of tools and sensors."""
+"""Find out which links without mass are frames of tools and sensors."""
 
 from __future__ import annotations
 
@@ -8,7 +8,12 @@ from ...model.elements import Link, Robot
 from ..mesh.link_extents import get_extents
 
 
-def is_frame_of_device(robot: Robot, link: Link) -> bool:
+def is_slight_frame(robot: Robot, link: Link) -> bool:
+    """Tell whether 1 kg in addition to a link's body matters little, or its shape is a frame's."""
+    return _is_frame_of_device(robot, link) or _is_far_heavier(robot)
+
+
+def _is_frame_of_device(robot: Robot, link: Link) -> bool:
     """Tell whether the shape of a link marks a place, or is that of a small tool or sensor."""
     box = get_extents(robot).get_link_box(link)
     if box is None:
@@ -26,7 +31,7 @@ _MARKED, _SMALL_DEVICE = 0.01, 0.06
 """Largest size [m] of a marker, and of a tool or sensor that needs no mass. Chosen, no source."""
 
 
-def is_far_heavier(robot: Robot) -> bool:
+def _is_far_heavier(robot: Robot) -> bool:
     """Tell whether the robot has fifty times the 1 kg that PyBullet substitutes."""
     return sum(link.mass for link in robot.links) >= _FAR_HEAVIER
 

@@ -1,4 +1,4 @@
-"""Tell which links are markers and stands, whose density says nothing."""
+"""Find out which links are markers and stands, whose density says nothing."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ from ..symmetry import find_twin
 from ..tree.mounted import is_arm, is_floating_base
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
-from .device_frames import is_far_heavier, is_frame_of_device
+from .device_frames import is_slight_frame
 from .light_body import find_light_body
 from .solids import DENSITY, compute_volume
 from .tensors import has_written_inertial
@@ -130,7 +130,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
                 outcome, severity = "light", WARNING
                 so = f", and the links fixed to it {light.describe()}"
                 several = ", and the links fixed to them are lighter than air of their size"
-            elif held or _is_marker(link) or is_frame_of_device(robot, link) or is_far_heavier(robot):
+            elif held or _is_marker(link) or is_slight_frame(robot, link):
                 continue
         elif held and not targets.isdisjoint(("mujoco", "pybullet")):
             continue  # its mass has no effect there
