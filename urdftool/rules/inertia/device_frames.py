@@ -37,4 +37,4 @@ def _is_far_heavier(robot: Robot) -> bool:
 
 
 _FAR_HEAVIER = 50.0
-"""[kg]. Chosen, no source."""
+"""Mass of a robot [kg] to which 1 kg matters little. Chosen, no source."""

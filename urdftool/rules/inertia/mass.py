@@ -333,7 +333,7 @@ def report_every_implausible_density(robot: Robot) -> Iterator[Problem]:
 
 
 _WATER = 1000.0
-"""[kg/m³]"""
+"""Density of water [kg/m³], which is about 1 kg in a liter."""
 
 
 class _DensityBounds(NamedTuple):
