@@ -119,7 +119,8 @@ def change_by_closing(path: str | Path) -> float | None:
 def _compute_areas(corners: Points) -> Points:
     """Compute twice the area of each triangle."""
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return np.sqrt(np.einsum("ij,ij->i", normals, normals))
+    areas: Points = np.linalg.norm(normals, axis=1)
+    return areas
 
 
 def _compute_mass_properties(corners: Points) -> tuple[float, Points, Points]:
