@@ -1,7 +1,8 @@
 """Projects: the folder around a file that belongs together, and links that lead out of it.
 
 A project is the repository around a file, else the nearest folder above with a project file, else
-the folder of the file. Folders that everybody uses, such as the home folder, are never projects.
+the folder of the file, with the folders of meshes next to it. Folders that everybody uses, such as
+the home folder, are never projects.
 What is in a project may be untrusted, its symbolic links among it.
 """
 
@@ -23,6 +24,13 @@ _PROJECT_MARKS = (
     *("package.xml", "model.config", "pyproject.toml", "CMakeLists.txt"),
     *("urdftool.toml", ".urdftool.toml"),
 )
+_DESCRIPTIONS = ("urdf", "xacro", "robots", "xml", "xmls", "mjcf", "mujoco", "sdf", "usd")
+_ASSETS = (
+    *("meshes", "mesh", "dae", "stl", "obj", "glb", "assets", "visual", "collision"),
+    *("materials", "textures"),
+)
+"""Folders of descriptions and of what they show: the names that packages on PyPI use, counted."""
+
 _LIBRARIES = ("site-packages", "dist-packages")
 _HOMES = ("home", "Users")
 _OWN_FOLDERS = ("HOME", "USERPROFILE", "TMPDIR", "TEMP", "TMP")
@@ -84,6 +92,24 @@ def list_above(folder: Path, files: Workspace) -> Iterator[Path]:
 def _is_cmeel(folder: Path) -> bool:
     """Tell whether a folder holds packages that cmeel installs."""
     return folder.parts[-2:] == ("cmeel.prefix", "share")
+
+
+def list_asset_folders(path: str | Path, files: Workspace) -> list[Path]:
+    """Return the folders of meshes and images next to the folder of a file without a project mark.
+
+    ``robot/urdf/robot.urdf`` without a mark of a project belongs to ``robot/meshes``, as in
+    a package; other folders of ``robot`` and its own files may be anybody's.
+
+    Args:
+        path: The real path of the file, which need not exist: a description, a mesh or its part.
+        files: Access to files without restriction.
+    """
+    own = Path(path).parent
+    if find_project(path, files) != own:
+        return []
+    homes = (p.parent for p in (own, own.parent) if p.name in (*_DESCRIPTIONS, *_ASSETS))
+    folders = (home / name for home in homes for name in _ASSETS if not is_shared(home, files))
+    return [f for f in folders if files.is_folder(f) and files.resolve_links(f) == str(f)]
 
 
 def is_shared(folder: Path, files: Workspace) -> bool:

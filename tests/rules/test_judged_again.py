@@ -270,23 +270,23 @@ def test_a_visual_in_millimeters_covers_no_collision_of_its_neighbor(tmp_path, s
 
 
 OUTSIDE = LINK.format(
-    "a", '<visual><geometry><mesh filename="../meshes/a.stl"/></geometry></visual>'
+    "a", '<visual><geometry><mesh filename="../parts/a.stl"/></geometry></visual>'
 )
 
 
 def test_a_mesh_that_may_not_be_read_is_counted_in_the_summary(tmp_path, monkeypatch, urdftool):
     trimesh.creation.box().export(tmp_path / "a.stl")
-    for folder in ("meshes", "urdf"):
+    for folder in ("parts", "urdf"):
         (tmp_path / folder).mkdir()
-    (tmp_path / "a.stl").rename(tmp_path / "meshes" / "a.stl")
+    (tmp_path / "a.stl").rename(tmp_path / "parts" / "a.stl")
     path = tmp_path / "urdf" / "r.urdf"
     path.write_text(f'<robot name="r">{OUTSIDE}</robot>', "utf-8")
     monkeypatch.delenv("URDFTOOL_TRUST", raising=False)
     done = urdftool("lint", path, "--select", "mesh-not-found", "--format", "json")
     assert (done.code, json.loads(done.out)["findings"]) == (0, [])
     (unread,) = json.loads(done.out)["summary"]["unread_meshes"]
-    assert unread["mesh"] == "../meshes/a.stl"
-    assert "not checked: mesh '../meshes/a.stl' is outside of the project; pass" in done.err
+    assert unread["mesh"] == "../parts/a.stl"
+    assert "not checked: mesh '../parts/a.stl' is outside of the project; pass" in done.err
     done = urdftool("lint", path, "--select", "mesh-not-found", "--trust")
     assert "not checked" not in done.err
 

@@ -51,7 +51,7 @@ PACKAGE = "<package><name>{}</name></package>"
 LAYOUTS = {
     "next to it": ("d/r.urdf", (), "d/a.stl", True),
     "below it": ("d/r.urdf", (), "d/meshes/deep/a.stl", True),
-    "beside its folder": ("d/urdf/r.urdf", (), "d/meshes/a.stl", False),
+    "beside its folder": ("d/urdf/r.urdf", (), "d/parts/a.stl", False),
     "parent": ("d/urdf/r.urdf", (), "d/a.stl", False),
     "repository": ("d/urdf/r.urdf", ("d/.git/",), "d/meshes/a.stl", True),
     "repository in a file": ("d/urdf/r.urdf", ("d/.git",), "d/meshes/a.stl", True),
@@ -67,10 +67,17 @@ LAYOUTS = {
     "model beside": ("d/m/m.sdf", ("d/m/model.config", "d/n/model.config"), "d/n/a.stl", True),
     "no model beside": ("d/m/m.sdf", ("d/m/model.config",), "d/n/a.stl", False),
     "package beside": ("ws/src/p/r.urdf", ("ws/src/p/package.xml",), "ws/src/q/a.stl", False),
-    "repository in home": ("d/urdf/r.urdf", (".git/",), "d/meshes/a.stl", False),
-    "package in home": ("d/urdf/r.urdf", ("package.xml",), "d/meshes/a.stl", False),
+    "repository in home": ("d/urdf/r.urdf", (".git/",), "d/parts/a.stl", False),
+    "package in home": ("d/urdf/r.urdf", ("package.xml",), "d/parts/a.stl", False),
     "in home": ("r.urdf", (), "a.stl", False),
     "in home with a mark": ("r.urdf", (".git/",), "Documents/a.stl", False),
+    "meshes beside": ("d/urdf/r.urdf", (), "d/meshes/v/a.stl", True),
+    "meshes beside the folder above": ("d/urdf/r/r.urdf", (), "d/mesh/a.stl", True),
+    "a file beside": ("d/urdf/r.urdf", (), "d/a.stl", False),
+    "a folder beside": ("d/urdf/r.urdf", (), "d/private/a.stl", False),
+    "hidden in meshes beside": ("d/urdf/r.urdf", (), "d/meshes/.a/a.stl", False),
+    "meshes beside in home": ("urdf/r.urdf", (), "meshes/a.stl", False),
+    "meshes beside a folder of another name": ("d/x/r.urdf", (), "d/meshes/a.stl", False),
     "downloads": ("Downloads/r.urdf", (), "Documents/a.stl", False),
     "dot env": ("d/r.urdf", ("d/package.xml",), "d/.env", False),
     "git": ("d/r.urdf", ("d/.git/",), "d/.git/config", False),
@@ -141,14 +148,21 @@ def test_system_files_are_refused(home, path):
 
 
 def test_a_file_without_a_project_says_how_to_name_its_folder(home):
-    make(home, "arm_description/urdf/r.urdf", "arm_description/meshes/a.stl")
+    make(home, "arm_description/urdf/r.urdf", "arm_description/parts/a.stl")
     description = home / "arm_description/urdf/r.urdf"
-    for uri in ("package://arm_description/meshes/a.stl", "../meshes/a.stl"):
+    for uri in ("package://arm_description/parts/a.stl", "../parts/a.stl"):
         with pytest.raises(AccessError, match=r"--package arm_description=.*arm_description, or"):
             Packages(description).resolve(uri)
         named = {"arm_description": home / "arm_description"}
         assert Packages(description, named=named).resolve(uri).is_file()
         assert Packages(description, paths=[home]).resolve(uri).is_file()
+
+
+def test_meshes_beside_are_not_read_through_a_link(home):
+    make(home, "d/urdf/r.urdf", "private/a.stl")
+    (home / "d/meshes").symlink_to(home / "private")
+    with pytest.raises(AccessError):
+        Packages(home / "d/urdf/r.urdf").resolve("../meshes/a.stl")
 
 
 def test_packages_of_the_workspace_are_read(home):

@@ -22,6 +22,7 @@ from ..projects import (
     is_trusted,
     is_within,
     list_above,
+    list_asset_folders,
 )
 from ..workspace import Workspace
 
@@ -62,8 +63,8 @@ def require_companion(mesh: Path, path: Path) -> Path:
         return path
     real = Path(_resolve(files, path))
     mesh = Path(_resolve(files, mesh))
-    project = find_project(mesh, files) or mesh.parent
-    if not is_within(real, project):
+    folders = (find_project(mesh, files) or mesh.parent, *list_asset_folders(mesh, files))
+    if not any(is_within(real, folder) for folder in folders):
         raise AccessRefused(f"is outside of the project of {mesh.name}; {TRUST_REMEDY}", path)
     return path
 
@@ -220,6 +221,7 @@ class FileAccess:
         roots: list[str | Path | None] = [
             find_project(file, files) for file in self._list_own_files(files)
         ]
+        roots += list_asset_folders(self._list_own_files(files)[-1], files)
         roots += [*packages.named.values(), *packages.paths, *packages.list_configured()]
         for variable in (*_PACKAGE_PATHS, *MODEL_PATHS):
             roots += (files.read_variable(variable) or "").split(os.pathsep)

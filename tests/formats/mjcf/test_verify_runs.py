@@ -40,6 +40,14 @@ def test_a_box_on_the_floor_stays(tmp_path):
     assert (check.verdict, check.announced) == ("equal", [])
 
 
+@pytest.mark.parametrize("name", ["model.xml", "model.mjcf"])
+def test_a_model_without_a_floor_runs_whatever_its_file_is_called(tmp_path, name):
+    path = make(tmp_path, height=0.1, legs=0)
+    text = path.read_text().replace('<geom type="plane" size="0 0 1"/>', "")
+    (tmp_path / name).write_text(text)
+    assert runs(tmp_path / name).verdict == "equal"
+
+
 def test_servos_hold_the_legs(tmp_path):
     assert runs(make(tmp_path, servos=True)).verdict == "equal"
 

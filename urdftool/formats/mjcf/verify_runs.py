@@ -311,13 +311,22 @@ def _compile_on_floor(mujoco: Any, path: Path) -> Any:
         return model
     data = mujoco.MjData(model)
     _start(mujoco, model, data)
-    spec = mujoco.MjSpec.from_file(str(path))
+    spec = _read_spec(mujoco, path)
     spec.worldbody.add_geom(
         type=mujoco.mjtGeom.mjGEOM_PLANE,
         size=[0, 0, 1],
         pos=[0, 0, compute_lowest_point(mujoco, model, data)],
     )
     return spec.compile()
+
+
+def _read_spec(mujoco: Any, path: Path) -> Any:
+    """Read a file; MuJoCo's own function takes names in ``.xml`` alone (3.3), the other no parts."""
+    if path.suffix == ".xml":
+        return mujoco.MjSpec.from_file(str(path))
+    spec = mujoco.MjSpec.from_string(path.read_text(encoding="utf-8"))
+    spec.modelfiledir = str(path.parent)
+    return spec
 
 
 def compute_lowest_point(mujoco: Any, model: Any, data: Any) -> float:
