@@ -321,7 +321,7 @@ def _compile_on_floor(mujoco: Any, path: Path) -> Any:
 
 
 def _read_spec(mujoco: Any, path: Path) -> Any:
-    """Read a file; MuJoCo's own function takes names in ``.xml`` alone (3.3), the other no parts."""
+    """Read a file; MuJoCo takes files in ``.xml`` alone, and a text only without parts."""
     if path.suffix == ".xml":
         return mujoco.MjSpec.from_file(str(path))
     spec = mujoco.MjSpec.from_string(path.read_text(encoding="utf-8"))
