@@ -82,13 +82,19 @@ def test_an_arm_on_a_fixed_base_holds_its_weight_and_no_more(write, engine):
     assert {fault.code for fault in verdict.faults} <= {"interpenetration"}
 
 
+MASS = """<inertial><mass value="0.01"/>
+  <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>"""
+
+
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("base", ["fixed", "world"])
+@pytest.mark.parametrize("base", ["fixed", "world", "world with mass"])
 def test_efforts_are_those_of_inverse_dynamics(write, engine, base):
     mujoco = pytest.importorskip("mujoco")
     text = ARM.format(more="")
-    if base == "world":
-        weld = '<link name="world"/><joint name="weld" type="fixed"><parent link="world"/>'
+    if base != "fixed":
+        inside = MASS if base == "world with mass" else ""
+        weld = f'<link name="world">{inside}</link><joint name="weld" type="fixed">'
+        weld += '<parent link="world"/>'
         text = text.replace("</robot>", f'{weld}<child link="base"/></joint></robot>')
     pose = {"pan": 0.4, "elbow": -0.7, "slide": 0.1}
     run, _ = _run(write, text, engine, fixed_base=base == "fixed", pose=pose)

@@ -188,8 +188,11 @@ def has_fixed_base(robot: Robot, root: Link) -> bool:
 
 
 def _is_world(link: Link) -> bool:
-    """Tell whether a root is the world, so that the robot has a fixed base, as in Gazebo."""
-    return link.name == ROOTED and not link.mass and not link.collisions
+    """Tell whether a root is the world, so that the robot has a fixed base, as in the exports.
+
+    Gazebo attaches the children of a root link ``world`` to its world, whatever mass it has.
+    """
+    return link.name == ROOTED
 
 
 def _find_root(robot: Robot) -> str:

@@ -15,6 +15,7 @@ import numpy as np
 
 from ...compare.check import Check
 from ...mechanics.reference import Array
+from ...workspace import Workspace
 from ..common.losses import DeclaredLosses
 from .compiled import import_mujoco_module
 
@@ -324,7 +325,7 @@ def _read_spec(mujoco: Any, path: Path) -> Any:
     """Read a file; MuJoCo takes files in ``.xml`` alone, and a text only without parts."""
     if path.suffix == ".xml":
         return mujoco.MjSpec.from_file(str(path))
-    spec = mujoco.MjSpec.from_string(path.read_text(encoding="utf-8"))
+    spec = mujoco.MjSpec.from_string(Workspace().read_text(path))
     spec.modelfiledir = str(path.parent)
     return spec
 

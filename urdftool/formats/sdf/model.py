@@ -153,7 +153,7 @@ def _report_world(t: Translation) -> None:
         if there
     ]
     if has:
-        text = f"the root link is the world, so its {' and '.join(has)} are not exported"
+        text = f"the root link is the world; not exported: its {' and '.join(has)}"
         t.report_loss("world", text, world, world)
 
 
