@@ -5,10 +5,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.graph.robots import robot
+from urdftool.compare.difference import THERE
 from urdftool.compare.differences import compare
 from urdftool.compare.tolerance import close, compute_angle
 from urdftool.model.load import load
 from urdftool.model.pose import rotation_from_rpy
+from urdftool.report.compare import describe_what
 
 LINK = '<link name="a">{}</link><link name="b"/>'
 JOINT = '<joint name="j" type="{}"><parent link="a"/><child link="b"/>{}</joint>'
@@ -23,7 +25,7 @@ def of(link="", joint="", kind="revolute", more=""):
 
 
 def said(a, b, **options):
-    return [(change.kind, change.name, change.what) for change in compare(a, b, **options)]
+    return [(d.kind, d.new_name, describe_what(d)) for d in compare(a, b, **options)]
 
 
 SAME = {
@@ -130,7 +132,7 @@ def test_a_moved_link_has_another_parent():
         '<joint name="bc" type="fixed"><parent link="{}"/><child link="c"/></joint></robot>'
     )
     (change,) = compare(robot(text.format("b")), robot(text.format("a")))
-    assert (change.name, change.what, change.before, change.after) == ("bc", "parent", "b", "a")
+    assert (change.name, change.what, *change.values) == ("bc", "parent", "b", "a")
 
 
 def test_new_names_are_no_other_change():
@@ -198,10 +200,10 @@ def test_elements_told_apart_by_a_name_show_both_names():
     )
     a = of(more=block.format("47090", ""))
     b = of(more=block.format("47093", '<led name="x"/>'))
-    found = {(change.what, change.before, change.after) for change in compare(a, b)}
+    found = {(change.what, *change.values) for change in compare(a, b)}
     assert found == {
         ("hardware/port", "/dev/47090", "/dev/47093"),
-        ("hardware/led[x] added", None, None),
+        ("hardware/led[x] added", None, THERE),
     }
 
 

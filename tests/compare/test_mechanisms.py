@@ -8,6 +8,7 @@ from urdftool.compare.differences import compare
 from urdftool.model.elements import Dynamics, Origin
 from urdftool.model.mechanism import Closure, Configuration, ContactExclusion, Frame, JointActuator
 from urdftool.model.settings import Value
+from urdftool.report.compare import describe_what
 
 LOOP = Closure(name="loop", type="weld", parent="link0", child="link2", origin=Origin(None))
 MOTOR = JointActuator(name="motor", joint="j1", gain=2.0, control_range=(-1.0, 1.0))
@@ -15,7 +16,7 @@ MOTOR = JointActuator(name="motor", joint="j1", gain=2.0, control_range=(-1.0, 1
 
 def changed(one, two):
     a, b = (arm(2, **parts) for parts in (one, two))
-    return [(c.kind, c.name, c.what) for c in compare(a, b)]
+    return [(c.kind, c.new_name, describe_what(c)) for c in compare(a, b)]
 
 
 def test_equal_parts_do_not_differ():

@@ -1,5 +1,7 @@
 """An export differs from its source, unless a loss of that part explains the difference."""
 
+from dataclasses import replace
+
 import pytest
 
 from tests.formats.sdf.robots import BOX, inertial, joint, link, robot
@@ -8,6 +10,7 @@ from urdftool.compare.proof import Claims, Excuse, prove
 from urdftool.compare.rows import ROWS, narrow_tolerances
 from urdftool.diagnostic import Severity
 from urdftool.finding import Finding
+from urdftool.model.mechanism import Base
 from urdftool.model.provenance import NOWHERE
 
 LOSS = "lossy-anything"
@@ -103,3 +106,29 @@ def test_what_could_not_be_compared_is_named():
     assert checks["base"].skipped
     assert checks["other data"].skipped == "not read, so not compared: lights are not read: 2"
     assert checks["other data"].as_dict()["verdict"] == "not compared"
+
+
+def test_a_lone_world_is_left_out_if_that_is_declared():
+    source = robot(link("world", inertial(1)), *tree())
+    declared = [Finding("lossy-world", Severity.WARNING, "", NOWHERE, "", "world")]
+    assert find(prove(source, robot(*tree()), Claims(declared))) == set()
+    assert "mass" in find(prove(source, robot(*tree()), Claims()))
+    empty = robot(link("world", ""), *tree())
+    assert find(prove(empty, robot(*tree()), Claims())) == set()
+
+
+@pytest.mark.parametrize(("mass", "rows"), [(2, {"tree"}), (3, {"tree", "mass"})])
+def test_an_added_part_on_the_world_is_the_only_difference(mass, rows):
+    source = replace(robot(*tree()), base=Base(None, True))
+    on_world = [link("world", ""), *(joint(f"{name}_f", "world", name, "floating") for name in "az")]
+    found = find(prove(source, robot(*on_world, *tree(mass), link("z", "")), Claims()))
+    assert found - {"mass matrix", "gravity"} == rows
+
+
+def tree(mass=2):
+    """A tree of three links, of which the last one moves."""
+    limit = '<limit lower="-1" upper="1" effort="3" velocity="4"/>'
+    return (
+        *(link("a", ""), link("b", inertial(mass)), joint("w", "a", "b", "fixed")),
+        *(joint("k", "b", "c", "revolute", inside=limit), link("c", inertial(1))),
+    )

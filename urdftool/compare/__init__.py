@@ -14,12 +14,14 @@ for the proof of an export:
 - ``matching``: joints without a common name, matched by the structure of the tree;
 - ``frames``, ``origins``: frames and origins of joints of one robot in the other;
 - ``pair``: both robots, with the names of the parts of one in the other;
-- ``joints``, ``inertia``, ``shapes``, ``dynamics``, ``settings``: comparison of each property.
+- ``joints``, ``inertia``, ``shapes``, ``dynamics``: comparison of each property.
 
-As descriptions, part by part, for ``diff``:
+As descriptions, part by part, for ``diff``, whose differences are rows of the same table:
 
-- ``differences``: ``compare``, with the differences of joints and renames; ``change``: its result;
-- ``links``, ``mechanisms``, ``extensions``, ``changed_settings``: differences of these parts;
-- ``tolerance``: equality of numbers, poses and tensors;
+- ``differences``: ``compare``, which takes links and joints by their names, in their own frames;
+- ``links``: what is written of a link;
 - ``revision``: descriptions at a git revision.
+
+Shared by both: ``settings``, ``mechanisms``, ``extensions`` and ``native``, which compare what
+plain URDF lacks, and ``tolerance``, the equality of numbers, poses and tensors.
 """

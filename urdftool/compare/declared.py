@@ -30,6 +30,8 @@ from .correspondence import Correspondence
 from .difference import Comparison, Difference
 from .frames import describe_motion, describe_pose, format_vector, invert, measure_largest
 from .images import add_images
+from .inertia import combine, format_tensor
+from .joints import OUTSIDE_ROWS, list_values
 from .mesh_measure import MeshMeasures
 from .names import NameMap, get_pair
 from .pair import locate
@@ -204,27 +206,16 @@ def _compare_mounts(b: Robot, declared: Correspondence) -> Iterator[Difference]:
         yield Difference("tree", "joint", names, "mount", ends, "", amount, places)
 
 
-_REFERENCES = {
-    "safety_controller": ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"),
-    "calibration": ("rising", "falling", "reference_position"),
-}
-
-
 def _compare_references(x: Joint, y: Joint) -> Iterator[Difference]:
     """Yield differences of soft limits and of calibration, which the rows do not compare."""
-    for tag, attributes in _REFERENCES.items():
-        one, two = getattr(x, tag), getattr(y, tag)
-        for attribute in attributes:
-            before, after = getattr(one, attribute, None), getattr(two, attribute, None)
-            amount = 0.0 if before == after else math.inf
-            if before is not None and after is not None:
-                amount = abs(before - after)
-            values = before, after
-            what = attribute.replace("_", " ")
-            yield Difference(
-                *("limits", "joint", (x.name, y.name), what, values, "", amount),
-                (locate(one, x), locate(two, y)),
-            )
+    for value in list_values(x, y, *OUTSIDE_ROWS):
+        one, two = value.values
+        amount = 0.0 if one == two else math.inf
+        if isinstance(one, int | float) and isinstance(two, int | float):
+            amount = abs(one - two)
+        names, places = (x.name, y.name), (locate(value.owners[0], x), locate(value.owners[1], y))
+        what = value.name.replace("_", " ")
+        yield Difference("limits", "joint", names, what, value.values, value.unit, amount, places)
 
 
 def _make(
@@ -298,8 +289,9 @@ def _compare_masses(
         if other is None or name not in frames:
             continue
         back = invert(frames[name])
-        one = _combine([(a.link[member], back @ frames[member]) for member in members])
-        two = _combine([(other, np.eye(4))])
+        own = [compute_mass_properties(a.link[m], back @ frames[m]) for m in members]
+        one = combine([properties for properties in own if properties is not None])
+        two = compute_mass_properties(other, np.eye(4)) or combine([])
         places = locate(a.link[name].inertial, a.link[name]), locate(other.inertial, other)
         ends = (name, other.name)
         unit = abs(one[0] - two[0]) / max(one[0], two[0], 1e-12)
@@ -311,25 +303,7 @@ def _compare_masses(
         size = float(np.linalg.norm(one[1] - two[1]))
         what = "own center of mass"
         yield Difference("center of mass", "link", ends, what, texts, "m", size, places)
-        texts = (_format_tensor(one[2]), _format_tensor(two[2]))
+        texts = (format_tensor(one[2]), format_tensor(two[2]))
         scale = max(float(np.trace(one[2])), float(np.trace(two[2])), 1e-15)
         size = float(np.abs(one[2] - two[2]).max()) / scale
         yield Difference("inertia", "link", ends, "own tensor", texts, "kg·m²", size, places)
-
-
-def _combine(links: list[tuple[Link, Array]]) -> tuple[float, Array, Array]:
-    """Return mass, center of mass and tensor about it of links at poses."""
-    found = [part for link, pose in links if (part := compute_mass_properties(link, pose))]
-    if len(found) == 1:
-        return found[0]
-    mass = math.fsum(part[0] for part in found)
-    center = sum((m * c for m, c, _ in found), np.zeros(3)) / (mass or 1.0)
-    tensor = np.zeros((3, 3))
-    for m, c, inertia in found:
-        arm = c - center
-        tensor += inertia + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    return mass, center, tensor
-
-
-def _format_tensor(tensor: Array) -> str:
-    return format_vector(tensor[np.triu_indices(3)])

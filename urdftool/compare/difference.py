@@ -2,14 +2,35 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
+from typing import Protocol
 
+from ..model.provenance import NOWHERE
 from ..source.location import Place
 from .check import Check
 from .rows import Row
 
 EXISTENCE = "existence"
 """Property of a part that only one robot has."""
+
+THERE = "there"
+"""Value of a part that only one robot has, and that is not described."""
+
+RENAMED = "renamed"
+"""Property of a part that only has another name."""
+
+
+class Located(Protocol):
+    """Part or element with a location."""
+
+    @property
+    def place(self) -> Place:
+        """Return the span in the source."""
+
+
+Sides = tuple[Located | None, Located | None]
+"""A part of both robots; None where it does not exist."""
 
 
 def name_part(kind: str, name: str) -> str:
@@ -23,7 +44,8 @@ class Difference:
 
     Attributes:
         row: Name of its row.
-        kind: ``link``, ``joint`` or ``robot``.
+        kind: ``link``, ``joint`` or ``robot``; the tag of an element or block; or what plain URDF
+            lacks, such as ``closed loop``.
         names: Name of the part in each robot; empty where it does not exist.
         what: The property, such as ``upper limit``.
         values: Value in each robot; None where there is none.
@@ -59,6 +81,50 @@ class Difference:
         if self.kind == "robot" and not self.name:
             return self.what
         return f"{name_part(self.kind, self.name)}: {self.what}"
+
+    @property
+    def new_name(self) -> str:
+        """Return the name in the second robot, or in the first if the second has no such part."""
+        return self.names[1] or self.names[0]
+
+    @property
+    def place(self) -> Place | None:
+        """Return the location in the second file, or in the first; None without one."""
+        return next((place for place in reversed(self.places) if place.path), None)
+
+
+def describe_change(
+    row: str,
+    kind: str,
+    name: str,
+    what: str,
+    values: tuple[object, object],
+    sides: Sides,
+    unit: str = "",
+    note: str = "",
+) -> Difference:
+    """Return a difference of a part that has one name: that in the second robot.
+
+    Args:
+        row: Its row.
+        kind: Kind of the part.
+        name: Name of the part.
+        what: The property.
+        values: Value in each robot; None where there is none.
+        sides: Part in each robot, for the places.
+        unit: Unit of the values.
+        note: Explanation.
+    """
+    one, two = (NOWHERE if side is None else side.place for side in sides)
+    return Difference(row, kind, (name, name), what, values, unit, math.inf, (one, two), note)
+
+
+def describe_presence(
+    row: str, kind: str, name: str, sides: Sides, what: str = EXISTENCE
+) -> Difference:
+    """Return the difference that only one robot has a part or an element."""
+    one, two = (None if side is None else THERE for side in sides)
+    return describe_change(row, kind, name, what, (one, two), sides)
 
 
 @dataclass

@@ -1,4 +1,8 @@
-"""Comparison of two robots."""
+"""Comparison of two descriptions as they are written, part by part, for ``diff``.
+
+Unlike ``compare.compare_robots``, it takes links and joints by their names, in their own frames, so
+that robots that form no tree can be compared, and a body with other frames is not the same.
+"""
 
 from __future__ import annotations
 
@@ -7,16 +11,17 @@ from collections.abc import Callable, Iterator, Mapping
 from ..model.angles import restore_angle
 from ..model.elements import Joint, Link, Robot, Vector
 from ..model.pose import compute_norm, make_restored_pose
-from .change import Change
-from .changed_settings import compare_settings
+from .difference import EXISTENCE, RENAMED, Difference, describe_change
 from .extensions import compare_extensions
-from .links import describe_pose, link_changes
+from .joints import list_values
+from .links import compare_links, describe_pose
 from .mechanisms import compare_mechanisms
 from .native import are_of_one_format, compare_native
+from .settings import compare_written_settings
 from .tolerance import TOLERANCE, are_close, close, format_motion, is_same_pose
 
 
-def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Change]:
+def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Difference]:
     """Yield the differences from one robot to another: links, joints, then extensions.
 
     Order, comments and formatting are ignored, and so are equivalent notations of poses, axes and
@@ -25,12 +30,12 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
     Args:
         a: The first (old) robot.
         b: The second (new) robot.
-        tolerance: Tolerance as in ``closeness.TOLERANCE``.
+        tolerance: Tolerance as in ``tolerance.TOLERANCE``.
     """
     robots = a, b
 
     def same_link(x: Link, y: Link) -> bool:
-        return next(link_changes(x, y, tolerance, robots), None) is None
+        return next(compare_links(x, y, tolerance, robots), None) is None
 
     def same_joint(x: Joint, y: Joint) -> bool:
         ends = ("parent", "child", "mimic joint")
@@ -38,20 +43,20 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Cha
 
     links, joints = find_renames(a, b, same_link, same_joint)
     if a.name != b.name:
-        yield Change("robot", b.name, "name", a.name, b.name, place=b.place)
+        yield describe_change("tree", "robot", b.name, "name", (a.name, b.name), (a, b))
     yield from _compare_presence("link", a.link, b.link, links)
     yield from _compare_presence("joint", a.joint, b.joint, joints)
     for name, link in a.link.items():
         other = b.link.get(links.get(name, name))
         if other is not None:
-            yield from link_changes(link, other, tolerance, robots)
+            yield from compare_links(link, other, tolerance, robots)
     renamed = {**joints, **links}
     for name, joint in a.joint.items():
         new = b.joint.get(joints.get(name, name))
         if new is not None:
             yield from compare_joints(joint, new, tolerance, renamed)
     yield from compare_extensions(a, b, tolerance, renamed)
-    yield from compare_settings(a, b, tolerance, renamed)
+    yield from compare_written_settings(a, b, tolerance, renamed)
     yield from compare_mechanisms(a, b, tolerance, renamed)
     if are_of_one_format(a, b):
         yield from compare_native(a.native, b.native, tolerance, renamed)
@@ -62,17 +67,19 @@ def _compare_presence(
     a: Mapping[str, Link] | Mapping[str, Joint],
     b: Mapping[str, Link] | Mapping[str, Joint],
     renamed: Mapping[str, str],
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     """Yield renamed parts, and parts that only one robot has."""
     for old, new in renamed.items():
-        yield Change(kind, new, "renamed", old, new, place=b[new].place)
+        yield describe_change("tree", kind, new, RENAMED, (old, new), (a[old], b[new]))
+    new_names = set(renamed.values())
     for name, part in a.items():
         if name not in b and name not in renamed:
-            yield Change(kind, name, "removed", _describe_part(part), place=part.place)
-    new_names = set(renamed.values())
+            facts = _describe_part(part)
+            yield describe_change("tree", kind, name, EXISTENCE, (facts, None), (part, None))
     for name, part in b.items():
         if name not in a and name not in new_names:
-            yield Change(kind, name, "added", after=_describe_part(part), place=part.place)
+            facts = _describe_part(part)
+            yield describe_change("tree", kind, name, EXISTENCE, (None, facts), (None, part))
 
 
 def _describe_part(part: Link | Joint) -> dict[str, object]:
@@ -149,36 +156,31 @@ _X: Vector = (1.0, 0.0, 0.0)
 
 def compare_joints(
     a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     """Yield the differences of a joint.
 
     Args:
         a: The joint in the first robot.
         b: The joint in the second.
-        tolerance: Tolerance as in ``closeness.TOLERANCE``.
+        tolerance: Tolerance as in ``tolerance.TOLERANCE``.
         renamed: New names of links and joints by old names.
     """
-
-    def change(
-        what: str, before: object, after: object, unit: str = "", remark: str = ""
-    ) -> Change:
-        part = getattr(b, what.partition(" ")[0], None)
-        place = getattr(part, "place", None) or b.place
-        return Change("joint", b.name, what, before, after, unit, remark, place)
-
     for what in ("type", "parent", "child"):
         before, after = getattr(a, what), getattr(b, what)
         if (before if what == "type" else renamed.get(before, before)) != after:
-            yield change(what, before, after)
+            yield describe_change("tree", "joint", b.name, what, (before, after), (a, b))
     one, two = make_restored_pose(a.origin), make_restored_pose(b.origin)
     if not is_same_pose(one, two, tolerance):
-        yield change("origin", describe_pose(one), describe_pose(two), "", format_motion(one, two))
+        values, sides = (describe_pose(one), describe_pose(two)), (a.origin or a, b.origin or b)
+        note = format_motion(one, two)
+        yield describe_change("frames", "joint", b.name, "origin", values, sides, note=note)
     if a.has_axis and b.has_axis:
         x, y = _get_axis(a), _get_axis(b)
         if not are_close(x, y, max(tolerance, 1e-12)):
             opposite = are_close(x, (-y[0], -y[1], -y[2]), max(tolerance, 1e-12))
-            yield change("axis", x, y, "", "opposite direction" if opposite else "")
-    yield from _compare_numbers(a, b, tolerance, renamed)
+            note, parts = "opposite direction" if opposite else "", (a.axis or a, b.axis or b)
+            yield describe_change("axes", "joint", b.name, "axis", (x, y), parts, note=note)
+    yield from _compare_values(a, b, tolerance, renamed)
 
 
 def _get_axis(joint: Joint) -> Vector:
@@ -192,41 +194,29 @@ def _restore(value: float | None) -> float | None:
     return None if value is None else restore_angle(value)
 
 
-def _compare_numbers(
+_ROW_OF = {
+    "limit": "limits",
+    "dynamics": "joint physics",
+    "mimic": "tree",
+    "safety_controller": "limits",
+    "calibration": "limits",
+}
+
+
+def _compare_values(
     a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]
-) -> Iterator[Change]:
-    slides = b.type == "prismatic"
-    here, force, rate = ("m", "N", "m/s") if slides else ("rad", "N·m", "rad/s")
-    units = {
-        "limit": {"lower": here, "upper": here, "effort": force, "velocity": rate},
-        "dynamics": {
-            "damping": "N·s/m" if slides else "N·m·s/rad",
-            "friction": force,
-            "armature": "kg" if slides else "kg·m²",
-        },
-        "mimic": {"joint": "", "multiplier": "", "offset": here},
-        "safety_controller": {
-            "soft_lower_limit": here,
-            "soft_upper_limit": here,
-            "k_position": "",
-            "k_velocity": "",
-        },
-        "calibration": {"rising": here, "falling": here, "reference_position": here},
-    }
-    for part, properties in units.items():
-        one, two = getattr(a, part), getattr(b, part)
-        place = b.place if two is None else two.place
-        for name, unit in properties.items():
-            before = None if one is None else getattr(one, name)
-            after = None if two is None else getattr(two, name)
-            if part == "limit" and name in ("lower", "upper") and a.is_limited and b.is_limited:
-                before, after = before or 0.0, after or 0.0  # default of readers
-            if isinstance(before, str) or isinstance(after, str):
-                same = renamed.get(before or "", before) == after
-            else:
-                same = close(before, after, tolerance) or (
-                    unit == "rad" and close(_restore(before), _restore(after), tolerance)
-                )
-            if not same:
-                what = f"{part.replace('_', ' ')} {name.replace('_', ' ')}"
-                yield Change("joint", b.name, what, before, after, unit, "", place)
+) -> Iterator[Difference]:
+    for value in list_values(a, b):
+        x, y = value.values
+        if value.name in ("lower", "upper") and a.is_limited and b.is_limited:
+            x, y = x or 0.0, y or 0.0  # default of readers
+        if isinstance(x, str) or isinstance(y, str):
+            same = renamed.get(str(x), x) == y
+        else:
+            same = close(x, y, tolerance) or (
+                value.unit == "rad" and close(_restore(x), _restore(y), tolerance)
+            )
+        if not same:
+            owners = value.owners[0] or a, value.owners[1] or b
+            row = _ROW_OF[value.part]
+            yield describe_change(row, "joint", b.name, value.what, (x, y), owners, value.unit)

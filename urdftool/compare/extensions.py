@@ -8,7 +8,8 @@ from ..model.elements import Robot
 from ..model.mechanism import NativeElement
 from ..model.read import number
 from ..source.document import Element
-from .change import Change
+from .difference import Difference, describe_change, describe_presence
+from .rows import BLOCKS as ROW
 from .tolerance import close
 
 Content = Element | NativeElement
@@ -20,7 +21,7 @@ _NAMING = ("name", "reference", "filename", "type")
 
 def compare_extensions(
     a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     """Yield differences of ``<gazebo>``, ``<transmission>`` and ``<ros2_control>`` blocks."""
     for tag in BLOCKS:
         one = _collect_blocks(a, tag, renamed)
@@ -38,32 +39,32 @@ def _collect_blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[
     return found
 
 
-def collect_tags(robot: Robot, change: Change, renamed: Mapping[str, str]) -> set[str]:
-    """Return the tags of the elements in the blocks that a change adds or removes."""
-    blocks = _collect_blocks(robot, change.kind, renamed).get(change.name, [])
+def list_tags(robot: Robot, difference: Difference, renamed: Mapping[str, str]) -> set[str]:
+    """Return the tags of the elements in the blocks that only one robot has."""
+    blocks = _collect_blocks(robot, difference.kind, renamed).get(difference.name, [])
     return {child.tag for block in blocks for child in block.children}
 
 
 def compare_elements(
+    row: str,
     kind: str,
     name: str,
-    old: Content,
-    new: Content,
+    sides: tuple[Content, Content],
     tolerance: float,
     renamed: Mapping[str, str],
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     """Yield the differences of two elements, by the path of their attributes and texts.
 
     Args:
-        kind: Kind of the changes.
+        row: Row of the differences.
+        kind: Kind of the element.
         name: Name of the element in the second robot.
-        old: The element of the first robot.
-        new: The element of the second.
+        sides: The element in both robots.
         tolerance: Relative tolerance of numbers.
         renamed: New names of parts by their old names.
     """
-    before, after = _flatten_content(old, renamed), _flatten_content(new, {})
-    yield from _compare_flat(kind, name, before, after, tolerance, renamed)
+    before, after = _flatten_content(sides[0], renamed), _flatten_content(sides[1], {})
+    yield from _compare_flat(row, kind, name, before, after, tolerance, renamed)
 
 
 def _compare_blocks(
@@ -73,33 +74,35 @@ def _compare_blocks(
     two: list[Element] | None,
     tolerance: float,
     renamed: Mapping[str, str],
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     if one is None or two is None:
-        what = "added" if one is None else "removed"
-        yield Change(tag, name, what, place=(two or one or [])[0].place)
+        sides = None if one is None else one[0], None if two is None else two[0]
+        yield describe_presence(ROW, tag, name, sides)
         return
     before, after = _flatten_elements(one, renamed), _flatten_elements(two, {})
-    yield from _compare_flat(tag, name, before, after, tolerance, renamed)
+    yield from _compare_flat(ROW, tag, name, before, after, tolerance, renamed)
 
 
 def _compare_flat(
-    tag: str, name: str, before: Flat, after: Flat, tolerance: float, renamed: Mapping[str, str]
-) -> Iterator[Change]:
-    for path, old_name, new_name in _find_renamings(before, after):
-        place = after[f"{path}[{new_name}]"][1].place
-        yield Change(tag, name, path, old_name, new_name, place=place)
-        _move(after, f"{path}[{new_name}]", f"{path}[{old_name}]")
+    row: str,
+    tag: str,
+    name: str,
+    before: Flat,
+    after: Flat,
+    tolerance: float,
+    renamed: Mapping[str, str],
+) -> Iterator[Difference]:
+    for path, old, new in _find_renamings(before, after):
+        sides = before[f"{path}[{old}]"][1], after[f"{path}[{new}]"][1]
+        yield describe_change(row, tag, name, path, (old, new), sides)
+        _move(after, f"{path}[{new}]", f"{path}[{old}]")
     for path in dict.fromkeys((*before, *after)):
-        x, y = before.get(path), after.get(path)
-        if (x is None or y is None) and not (x or y or ("",))[0]:
-            side = x or y
-            what = f"{path} {'added' if x is None else 'removed'}"
-            yield Change(tag, name, what, place=side[1].place if side else None)
-            continue
-        old, new = (None if side is None else side[0] for side in (x, y))
-        if not _is_same(old, new, tolerance, renamed):
-            side = y or x
-            yield Change(tag, name, path, old, new, place=side[1].place if side else None)
+        (x, one), (y, two) = before.get(path, (None, None)), after.get(path, (None, None))
+        if (one is None or two is None) and not (x or y):
+            what = f"{path} {'added' if one is None else 'removed'}"
+            yield describe_presence(row, tag, name, (one, two), what)
+        elif not _is_same(x, y, tolerance, renamed):
+            yield describe_change(row, tag, name, path, (x, y), (one, two))
 
 
 def _find_renamings(before: Flat, after: Flat) -> Iterator[tuple[str, str, str]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 import numpy as np
 
@@ -127,7 +128,7 @@ def _compare_rest(
     total = Comparison(comparison.rows)
     links = pair.a.robot.link[names[0]], pair.b.robot.link[names[1]]
     frames = match.one.members[names[0]], match.frame @ match.two.members[names[1]]
-    _compare_properties(links, frames, (_combine(one), _combine(two)), total)
+    _compare_properties(links, frames, (combine(one.values()), combine(two.values())), total)
     return total
 
 
@@ -142,7 +143,7 @@ def _compare_whole(
 
     What differs in the links is then in another link, where it is below the tolerance.
     """
-    totals, rests = ([_combine(part) for part in side] for side in (every, rest))
+    totals, rests = ([combine(part.values()) for part in side] for side in (every, rest))
     if rests[0][0] and rests[1][0] and abs(rests[0][0] - rests[1][0]) <= _MASSLESS:
         moved = _measure_spread(rests[0][2], rests[1][2])
         left = _measure_spread(totals[0][2], totals[1][2])
@@ -171,7 +172,7 @@ def _is_merged(
     if len(common) != 1 or len(one) == len(two) == 1:
         return False
     mass, mass2 = one[common[0]][0], two[names[common[0]]][0]
-    return abs(_combine(one)[0] - _combine(two)[0]) < abs(mass - mass2)
+    return abs(combine(one.values())[0] - combine(two.values())[0]) < abs(mass - mass2)
 
 
 def _compare_links(
@@ -260,13 +261,15 @@ def _list_massive(
     return found
 
 
-def _combine(parts: dict[str, Properties]) -> Properties:
+def combine(parts: Collection[Properties]) -> Properties:
     """Return the properties of a rigid body of several parts."""
-    mass = math.fsum(part[0] for part in parts.values())
+    if len(parts) == 1:
+        return next(iter(parts))
+    mass = math.fsum(part[0] for part in parts)
     tensor, com = np.zeros((3, 3)), np.zeros(3)
     if mass:
-        com = sum((m * c for m, c, _ in parts.values()), np.zeros(3)) / mass
-    for m, c, inertia in parts.values():
+        com = sum((m * c for m, c, _ in parts), np.zeros(3)) / mass
+    for m, c, inertia in parts:
         arm = c - com
         tensor += inertia + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
     return mass, com, tensor
@@ -320,7 +323,7 @@ def _compare_properties(
     if mass and mass2 and relative > 1e-12:  # that of a body of another mass is one difference
         spread = min(spread, _measure_tensors(tensor, tensor2 * (mass / mass2), larger))
     texts = [
-        _format_tensor(f[:3, :3].T @ t @ f[:3, :3])
+        format_tensor(f[:3, :3].T @ t @ f[:3, :3])
         for f, t in zip(frames, (values[0][2], values[1][2]), strict=True)
     ]
     comparison.add(
@@ -344,7 +347,7 @@ def _measure_tensors(one: Array, two: Array, mass: float) -> float:
     return float(np.abs(one - two).max()) / size if size else 0.0
 
 
-def _format_tensor(tensor: Array) -> str:
+def format_tensor(tensor: Array) -> str:
     """Format xx xy xz yy yz zz with six digits; rounding relative to the largest is zero."""
     six = tensor[np.triu_indices(3)]
     return " ".join(f"{x:.6g}" for x in np.where(abs(six) > 1e-12 * abs(six).max(), six, 0.0))

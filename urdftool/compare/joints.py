@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,27 @@ UNLIMITED = 1e9
 """Limit beyond which a joint counts as unlimited."""
 
 
+_POSITION, _FORCE, _RATE = ("rad", "m"), ("N·m", "N"), ("rad/s", "m/s")
+_DAMPING, _ARMATURE, _NONE = ("N·m·s/rad", "N·s/m"), ("kg·m²", "kg"), ("", "")
+
+_UNITS = {
+    "limit": {"lower": _POSITION, "upper": _POSITION, "effort": _FORCE, "velocity": _RATE},
+    "dynamics": {"damping": _DAMPING, "friction": _FORCE, "armature": _ARMATURE},
+    "mimic": {"joint": _NONE, "multiplier": _NONE, "offset": _POSITION},
+    "safety_controller": {
+        "soft_lower_limit": _POSITION,
+        "soft_upper_limit": _POSITION,
+        "k_position": _NONE,
+        "k_velocity": _NONE,
+    },
+    "calibration": {"rising": _POSITION, "falling": _POSITION, "reference_position": _POSITION},
+}
+"""Units of the values of each part of a joint: of one that turns, and of one that slides."""
+
+OUTSIDE_ROWS = ("safety_controller", "calibration")
+"""Parts of a joint that are not a property of its motion."""
+
+
 class JointMatch(NamedTuple):
     """A joint of both robots.
 
@@ -32,6 +54,49 @@ class JointMatch(NamedTuple):
     one: Joint
     two: Joint
     turn: Array
+
+
+def get_unit(joint: Joint, part: str, attribute: str) -> str:
+    """Return the unit of a value of a joint, such as ``limit`` and ``effort``."""
+    return _UNITS[part][attribute][joint.type == "prismatic"]
+
+
+def list_values(a: Joint, b: Joint, *parts: str) -> Iterator[WrittenValue]:
+    """Yield the values that a joint has as attributes of its parts.
+
+    Args:
+        a: The joint in the first robot.
+        b: The joint in the second.
+        parts: Names of the parts; all if none is given.
+    """
+    for part in parts or _UNITS:
+        owners = one, two = getattr(a, part), getattr(b, part)
+        for name in _UNITS[part]:
+            values = getattr(one, name, None), getattr(two, name, None)
+            yield WrittenValue(part, name, values, get_unit(b, part, name), owners)
+
+
+class WrittenValue(NamedTuple):
+    """Value of a joint in two robots.
+
+    Attributes:
+        part: Part of the joint, such as ``limit``.
+        name: Attribute of the part.
+        values: Value in each robot; None where there is none.
+        unit: Unit of the values; empty for none.
+        owners: The part in each robot.
+    """
+
+    part: str
+    name: str
+    values: tuple[float | str | None, float | str | None]
+    unit: str
+    owners: tuple[Part | None, Part | None]
+
+    @property
+    def what(self) -> str:
+        """Return part and attribute as words."""
+        return f"{self.part} {self.name}".replace("_", " ")
 
 
 def get_kind(joint: Joint) -> str:
@@ -56,7 +121,7 @@ def compare_joint(pair: Pair, match: JointMatch, comparison: Comparison) -> floa
     if one.has_axis:
         sign = _compare_axis(match, comparison)
         _compare_limits(pair, match, sign, comparison)
-    _compare_dynamics(pair, match, comparison)
+    _compare_dynamics(match, comparison)
     return sign
 
 
@@ -93,18 +158,17 @@ def _compare_axis(match: JointMatch, comparison: Comparison) -> float:
 
 def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comparison) -> None:
     one, two, _ = match
-    slides = one.type == "prismatic"
-    unit, force, rate = ("m", "N", "m/s") if slides else ("rad", "N·m", "rad/s")
     low, high = map(_bound, get_limits(one))
     low2, high2 = map(_bound, get_limits(two))
     if sign < 0:
         low2, high2 = -high2, -low2
-    parts = one.limit, two.limit
+    parts, unit = (one.limit, two.limit), get_unit(one, "limit", "lower")
     for what, x, y in (("lower limit", low, low2), ("upper limit", high, high2)):
         note = "negated, since the axis is opposite" if sign < 0 else ""
         values = _show(x), _show(y)
         _add(comparison, match, "limits", what, values, unit, measure(x, y), note, parts)
-    for what, unit in (("effort", force), ("velocity", rate)):
+    for what in ("effort", "velocity"):
+        unit = get_unit(one, "limit", what)
         limits = [_get_bound(limit, what) for limit in parts]
         if _is_unknown(pair, match, what):
             comparison.record_not_comparable(f"limit of {what}: not in every MJCF")
@@ -162,17 +226,14 @@ def measure(x: float, y: float) -> float:
     return abs(x - y) / max(1.0, abs(x), abs(y))
 
 
-def _compare_dynamics(pair: Pair, match: JointMatch, comparison: Comparison) -> None:
-    parts = match.one.dynamics, match.two.dynamics
-    slides = match.one.type == "prismatic"
-    units = {
-        "damping": "N·s/m" if slides else "N·m·s/rad",
-        "friction": "N" if slides else "N·m",
-        "armature": "kg" if slides else "kg·m²",
-    }
-    for name, unit in units.items():
-        x, y = (0.0 if part is None else getattr(part, name) or 0.0 for part in parts)
-        _add(comparison, match, "joint physics", name, (x, y), unit, measure(x, y), "", parts)
+def _compare_dynamics(match: JointMatch, comparison: Comparison) -> None:
+    for value in list_values(match.one, match.two, "dynamics"):
+        x, y = (number if isinstance(number, int | float) else 0.0 for number in value.values)
+        amount = measure(x, y)
+        _add(
+            comparison, match, "joint physics", value.name, (x, y), value.unit, amount, "",
+            value.owners,
+        )  # fmt: skip
 
 
 def compare_mimic(
@@ -207,4 +268,5 @@ def compare_mimic(
     _add(comparison, match, "tree", "mimic multiplier", values, "", amount, "", parts)
     values = x.offset, own * y.offset
     amount = measure(*values)
-    _add(comparison, match, "tree", "mimic offset", values, "rad", amount, "", parts)
+    unit = get_unit(one, "mimic", "offset")
+    _add(comparison, match, "tree", "mimic offset", values, unit, amount, "", parts)

@@ -1,4 +1,4 @@
-"""Differences of links: mass properties, visual geometry and collision geometry."""
+"""Differences of links as written: mass properties, visual geometry and collision geometry."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ from ..model.elements import (
 from ..model.materials import resolve_material
 from ..model.pose import Pose, make_pose, make_restored_pose, rpy_from_rotation
 from ..model.shapes import get_shape_name
-from .change import Change
-from .tolerance import are_close, close, compute_distance, format_motion, is_same_pose
+from .difference import Difference, describe_change
+from .tolerance import are_close, close, compute_distance, format_motion, is_same, is_same_pose
 
 Shape = Visual | Collision
 
 
-def link_changes(
+def compare_links(
     a: Link, b: Link, tolerance: float, robots: tuple[Robot, Robot]
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     """Yield the differences of a link.
 
     Args:
         a: The link in the first robot.
         b: The link in the second.
-        tolerance: Tolerance as in ``closeness.TOLERANCE``.
+        tolerance: Tolerance as in ``tolerance.TOLERANCE``.
         robots: Both robots, for named materials.
     """
     yield from _compare_inertials(a, b, tolerance)
@@ -48,27 +48,27 @@ def link_changes(
     yield from _compare_shapes("collision", a.collisions, b.collisions, b, tolerance, robots)
 
 
-def _compare_inertials(a: Link, b: Link, tolerance: float) -> Iterator[Change]:
-    one, two, name = a.inertial, b.inertial, b.name
+def _compare_inertials(a: Link, b: Link, tolerance: float) -> Iterator[Difference]:
+    one, two = a.inertial, b.inertial
+    sides = one or a, two or b
+
+    def change(row: str, what: str, x: object, y: object, unit: str, note: str = "") -> Difference:
+        return describe_change(row, "link", b.name, what, (x, y), sides, unit, note)
+
     if one is None or two is None:
         if one is not two:
-            place = b.place if two is None else two.place
-            yield Change(
-                "link", name, "inertial", _get_mass(one), _get_mass(two), "kg", place=place
-            )
+            yield change("mass", "inertial", _get_mass(one), _get_mass(two), "kg")
         return
-    place = two.place
     if not close(one.mass, two.mass, tolerance):
-        remark = _format_percent(one.mass, two.mass)
-        yield Change("link", name, "mass", one.mass, two.mass, "kg", remark, place)
+        note = _format_percent(one.mass, two.mass)
+        yield change("mass", "mass", one.mass, two.mass, "kg", note)
     before, after = make_pose(one.origin).translation, make_pose(two.origin).translation
     if compute_distance(before, after) > tolerance:
-        remark = format_motion(Pose(translation=before), Pose(translation=after))
-        yield Change("link", name, "center of mass", before, after, "m", remark, place)
-    if not are_close(_compute_tensor(one), _compute_tensor(two), tolerance):
-        yield Change(
-            "link", name, "inertia", _compute_tensor(one), _compute_tensor(two), "kg·m²", "", place
-        )
+        note = format_motion(Pose(translation=before), Pose(translation=after))
+        yield change("center of mass", "center of mass", before, after, "m", note)
+    x, y = _compute_tensor(one), _compute_tensor(two)
+    if not are_close(x, y, tolerance):
+        yield change("inertia", "inertia", x, y, "kg·m²")
 
 
 def _get_mass(inertial: Inertial | None) -> float | None:
@@ -95,7 +95,7 @@ def _compare_shapes(
     two: Link,
     tolerance: float,
     robots: tuple[Robot, Robot],
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     """Match visuals or collisions (equal, same name, same type, then by order) and compare them."""
     left: list[Shape] = list(a)
     right: list[Shape] = list(b)
@@ -117,12 +117,13 @@ def _compare_shapes(
         yield from _compare_shape(
             kind, f" {number}" if several else "", x, y, two, tolerance, robots
         )
+    row = f"{kind}s"
     for x in left:
-        yield Change("link", two.name, f"{kind} removed", describe_shape(x.geometry), place=x.place)
+        shape, what = describe_shape(x.geometry), f"{kind} removed"
+        yield describe_change(row, "link", two.name, what, (shape, None), (x, None))
     for y in right:
-        yield Change(
-            "link", two.name, f"{kind} added", after=describe_shape(y.geometry), place=y.place
-        )
+        shape, what = describe_shape(y.geometry), f"{kind} added"
+        yield describe_change(row, "link", two.name, what, (None, shape), (None, y))
 
 
 def _has_same_name(a: Shape, b: Shape) -> bool:
@@ -145,25 +146,20 @@ def _compare_shape(
     link: Link,
     tolerance: float,
     robots: tuple[Robot, Robot],
-) -> Iterator[Change]:
-    before, after = describe_shape(a.geometry), describe_shape(b.geometry)
-    same = before.keys() == after.keys() and all(
-        are_close(before[key], after[key], tolerance)
-        if isinstance(before[key], tuple) and isinstance(after[key], tuple)
-        else before[key] == after[key]
-        for key in before
-    )
-    if not same:
-        yield Change("link", link.name, f"{kind}{number} geometry", before, after, place=b.place)
+) -> Iterator[Difference]:
+    row, name, sides = f"{kind}s", link.name, (a, b)
+    shapes = describe_shape(a.geometry), describe_shape(b.geometry)
+    if not is_same(*shapes, tolerance):
+        yield describe_change(row, "link", name, f"{kind}{number} geometry", shapes, sides)
     one, two = make_restored_pose(a.origin), make_restored_pose(b.origin)
     if not is_same_pose(one, two, tolerance):
+        poses, note = (describe_pose(one), describe_pose(two)), format_motion(one, two)
         what = f"{kind}{number} origin"
-        facts = describe_pose(one), describe_pose(two)
-        yield Change("link", link.name, what, *facts, "", format_motion(one, two), b.place)
+        yield describe_change(row, "link", name, what, poses, sides, note=note)
     if isinstance(a, Visual) and isinstance(b, Visual):
-        old, new = _get_look(robots[0], a.material), _get_look(robots[1], b.material)
-        if old != new:
-            yield Change("link", link.name, f"{kind}{number} material", old, new, place=b.place)
+        looks = _get_look(robots[0], a.material), _get_look(robots[1], b.material)
+        if looks[0] != looks[1]:
+            yield describe_change("colors", "link", name, f"{kind}{number} material", looks, sides)
 
 
 def describe_shape(geometry: Geometry | None) -> dict[str, Any]:

@@ -10,56 +10,68 @@ from ..model.elements import Robot
 from ..model.part import Origin, Part
 from ..model.pose import make_pose
 from ..model.settings import Value
-from .change import Change
+from .difference import RENAMED, Difference, describe_change, describe_presence
 from .links import describe_pose
-from .tolerance import are_close, close, is_same_pose
+from .rows import LOOPS
+from .tolerance import is_same
+
+Parts = dict[str, tuple[Part, dict[str, Any]]]
+"""Parts with their values, by name."""
 
 _REFERENCES = ("parent", "child", "link", "other", "joint")
 
 
 def compare_mechanisms(
     a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     """Yield the differences of parts that URDF lacks; their order is ignored.
 
     Args:
         a: The first robot.
         b: The second.
-        tolerance: Tolerance as in ``closeness.TOLERANCE``.
+        tolerance: Tolerance as in ``tolerance.TOLERANCE``.
         renamed: New names of links and joints by their old names.
     """
     in_blocks = a.xml is not None and b.xml is not None  # their elements are compared
     sides = list_parts_by_kind(a), list_parts_by_kind(b)
     for (kind, before), (_, after) in zip(*sides, strict=True):
-        if in_blocks and kind in _IN_BLOCKS:
+        if not (in_blocks and kind in _IN_BLOCKS):
+            one, two = _index_by_name(before, renamed), _index_by_name(after, {})
+            yield from _compare_kind(kind, one, two, tolerance)
+
+
+def _compare_kind(kind: str, one: Parts, two: Parts, tolerance: float) -> Iterator[Difference]:
+    row = ROW_OF[kind]
+    for old, name in [*_find_renamed(one, two)] if row == LOOPS else ():
+        sides = one[old][0], two[name][0]
+        yield describe_change(row, kind, name, RENAMED, (old, name), sides)
+        one[name] = one.pop(old)
+    for name in dict.fromkeys((*one, *two)):
+        (x, before), (y, after) = one.get(name, (None, {})), two.get(name, (None, {}))
+        if x is None or y is None:
+            yield describe_presence(row, kind, name, (x, y))
             continue
-        one, two = _index_by_name(before, renamed), _index_by_name(after, {})
-        for old_name, name in [*_find_renamed(one, two)] if kind == _LOOP else ():
-            yield Change(kind, name, "renamed", old_name, name, place=two[name][0].place)
-            one[name] = one.pop(old_name)
-        for name in dict.fromkeys((*one, *two)):
-            old, new = one.get(name), two.get(name)
-            if old is None or new is None:
-                part = old or new
-                what = "added" if old is None else "removed"
-                yield Change(kind, name, what, place=part[0].place if part else None)
-                continue
-            for field, value in new[1].items():
-                if not _is_same(old[1][field], value, tolerance):
-                    what, before_it = field.replace("_", " "), _convert_to_data(old[1][field])
-                    yield Change(
-                        kind, name, what, before_it, _convert_to_data(value), place=new[0].place
-                    )
+        for key, value in after.items():
+            if not is_same(before[key], value, tolerance):
+                what, values = key.replace("_", " "), (before[key], value)
+                data = _convert_to_data(values[0]), _convert_to_data(values[1])
+                yield describe_change(row, kind, name, what, data, (x, y))
 
 
-_LOOP = "closed loop"
+ROW_OF = {
+    "closed loop": LOOPS,
+    "frame": "frames",
+    "joint actuator": "actuators",
+    "contact exclusion": "contact pairs",
+    "configuration": "configurations",
+    "camera": "sensors",
+    "mounted sensor": "sensors",
+    "light": "sensors",
+    "plugin": "plugins",
+}
+"""Row of each kind of part."""
 
-_KINDS = (
-    *(_LOOP, "frame", "joint actuator", "contact exclusion", "configuration", "camera"),
-    *("mounted sensor", "light", "plugin"),
-)
-
-_IN_BLOCKS = (_LOOP, "camera", "mounted sensor", "light", "plugin")
+_IN_BLOCKS = ("closed loop", "camera", "mounted sensor", "light", "plugin")
 
 
 def list_parts_by_kind(robot: Robot) -> list[tuple[str, Sequence[Part]]]:
@@ -70,14 +82,12 @@ def list_parts_by_kind(robot: Robot) -> list[tuple[str, Sequence[Part]]]:
         *(robot.configurations, robot.cameras, robot.mounted_sensors, robot.lights),
         robot.mounted_plugins,
     )
-    return list(zip(_KINDS, parts, strict=True))
+    return list(zip(ROW_OF, parts, strict=True))
 
 
-def _index_by_name(
-    parts: Iterable[Part], renamed: Mapping[str, str]
-) -> dict[str, tuple[Part, dict[str, Any]]]:
+def _index_by_name(parts: Iterable[Part], renamed: Mapping[str, str]) -> Parts:
     """Return each part and its values by name; parts without a name by their number."""
-    found: dict[str, tuple[Part, dict[str, Any]]] = {}
+    found: Parts = {}
     for number, part in enumerate(parts, 1):
         values = {
             field.name: getattr(part, field.name)
@@ -96,9 +106,7 @@ def _index_by_name(
     return found
 
 
-def _find_renamed(
-    one: Mapping[str, tuple[Part, dict[str, Any]]], two: Mapping[str, tuple[Part, dict[str, Any]]]
-) -> Iterator[tuple[str, str]]:
+def _find_renamed(one: Parts, two: Parts) -> Iterator[tuple[str, str]]:
     """Yield both names of the loops that only have other names: they connect the same links."""
     left = [name for name in two if name not in one]
     for old in [name for name in one if name not in two]:
@@ -116,20 +124,6 @@ def _list_ends(values: Mapping[str, Any]) -> tuple[str, ...]:
 def _name_by_references(values: Mapping[str, Any], number: int) -> str:
     """Return the parts that a part without a name concerns, or its number."""
     return " – ".join(str(values[key]) for key in _REFERENCES if values.get(key)) or str(number)
-
-
-def _is_same(a: Any, b: Any, tolerance: float) -> bool:
-    if isinstance(a, Origin) or isinstance(b, Origin):
-        return is_same_pose(make_pose(a), make_pose(b), tolerance)
-    if isinstance(a, Value) and isinstance(b, Value):
-        return _is_same(a.content, b.content, tolerance)
-    if isinstance(a, dict) and isinstance(b, dict):
-        return a.keys() == b.keys() and all(_is_same(a[key], b[key], tolerance) for key in a)
-    if isinstance(a, tuple) and isinstance(b, tuple):
-        return len(a) == len(b) and are_close(a, b, tolerance)
-    if isinstance(a, float) and isinstance(b, float):
-        return close(a, b, tolerance)
-    return bool(a == b)
 
 
 def _convert_to_data(value: Any) -> Any:

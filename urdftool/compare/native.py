@@ -15,10 +15,11 @@ from ..model.elements import Robot
 from ..model.mechanism import NativeElement
 from ..model.pose import Pose, rotation_from_rpy, rpy_from_rotation
 from .bodies import Bodies
-from .change import Change
+from .difference import Difference, describe_change, describe_presence
 from .extensions import compare_elements
 from .frames import describe_pose, make_matrix
 from .pair import Pair
+from .rows import NATIVE
 from .tolerance import is_same_pose
 
 _Key = tuple[str, str, str]
@@ -35,7 +36,7 @@ def compare_native(
     b: Iterable[NativeElement],
     tolerance: float,
     renamed: Mapping[str, str],
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     """Yield the differences of elements that only the format of two robots has.
 
     Elements correspond by section, tag and name, and those without a name by their order. What
@@ -51,8 +52,8 @@ def compare_native(
     for key in dict.fromkeys((*one, *two)):
         compare = partial(_list_changes, key, tolerance=tolerance, renamed=renamed)
         for old, new in _pair_elements(one.get(key, []), two.get(key, []), compare):
-            for change in compare(old, new):
-                yield replace(change, owner=key[0].partition(" ")[2])
+            for difference in compare(old, new):
+                yield replace(difference, owners=(key[0].partition(" ")[2],))
 
 
 def are_of_one_format(a: Robot, b: Robot) -> bool:
@@ -114,7 +115,7 @@ def _group(
     return found
 
 
-_Compare = Callable[[NativeElement | None, NativeElement | None], list[Change]]
+_Compare = Callable[[NativeElement | None, NativeElement | None], list[Difference]]
 
 
 def _pair_elements(
@@ -137,7 +138,7 @@ def _list_changes(
     *,
     tolerance: float,
     renamed: Mapping[str, str],
-) -> list[Change]:
+) -> list[Difference]:
     return list(_compare(key, old, new, tolerance, renamed))
 
 
@@ -147,7 +148,7 @@ def _compare(
     new: NativeElement | None,
     tolerance: float,
     renamed: Mapping[str, str],
-) -> Iterator[Change]:
+) -> Iterator[Difference]:
     section, tag, name = key
     name = name or section.partition(" ")[2]
     kind = f"<{tag}>"
@@ -156,11 +157,10 @@ def _compare(
     if old is None or new is None:
         part = old or new
         if part is not None and part.held is None:
-            what = "added" if old is None else "removed"
-            yield Change(kind, name, what, place=part.place)
+            yield describe_presence(NATIVE, kind, name, (old, new))
         return
     held = (old.held or frozenset()) & (new.held or frozenset())
-    for change in compare_elements(kind, name, old, new, tolerance, renamed):
+    for change in compare_elements(NATIVE, kind, name, (old, new), tolerance, renamed):
         if change.what.partition("/")[0].lstrip("@") not in held | _CLASSES:
             yield change
     if held:  # the values are those of the attributes
@@ -168,8 +168,8 @@ def _compare(
     for what, value in old.values.items():
         other = new.values.get(what, ())
         if not _is_same(what, value, other, tolerance):
-            before, after = _show(what, value), _show(what, other)
-            yield Change(kind, name, what.replace("_", " "), before, after, place=new.place)
+            shown = _show(what, value), _show(what, other)
+            yield describe_change(NATIVE, kind, name, what.replace("_", " "), shown, (old, new))
 
 
 def _show(what: str, value: Sequence[float]) -> object:

@@ -136,7 +136,9 @@ def prove(
         A row for each property, also for those that could not be compared, and one for what the
         result does not hold.
     """
-    one, two = join_trees(source), join_trees(result)
+    one, two = join_trees(_drop_world(source, claims)), join_trees(result)
+    if _stands_on_world(two) and one.base is not None and one.base.is_free:
+        one = _put_on_world(one)
     try:
         comparison = compare_robots(one, two, rows=rows, names=claims.names, meshes=meshes)
     except ModelError as error:
@@ -190,17 +192,41 @@ def _compute_world_poses(robot: Robot, base: Base) -> dict[str, Array]:
 def join_trees(robot: Robot) -> Robot:
     """Return a robot of several trees with its roots on a link ``world``.
 
-    They move freely, or are fixed if the robot is static. A reader of SDF does the same with a
-    model of several trees.
+    A reader of SDF does the same with a model of several trees.
     """
+    return robot if len(robot.tree.roots) < 2 else _put_on_world(robot)
+
+
+def _put_on_world(robot: Robot) -> Robot:
+    """Return a robot with its roots on a link ``world``, free, or fixed if the robot is static."""
     roots = [link.name for link in robot.tree.roots if link.name != WORLD]
-    if len(robot.tree.roots) < 2:
-        return robot
     links = robot.links if WORLD in robot.link else [Link(robot.provenance, WORLD), *robot.links]
     origin = None if robot.base is None else robot.base.origin
     kind = "fixed" if is_set(robot.settings, "static") else "floating"
     joints = [Joint(None, f"{name}_floating", kind, WORLD, name, origin=origin) for name in roots]
     return replace(robot, links=links, joints=[*robot.joints, *joints], base=None)
+
+
+def _stands_on_world(robot: Robot) -> bool:
+    """Tell whether a robot is several free trees on a link ``world``."""
+    root = robot.tree.root
+    below = [] if root is None or root.name != WORLD else robot.tree.get_child_joints(WORLD)
+    return len(below) > 1 and all(joint.type == "floating" for joint in below)
+
+
+def _drop_world(robot: Robot, claims: Claims) -> Robot:
+    """Return a robot without a link ``world`` that is a tree of its own, which is not exported.
+
+    A link with mass or geometry stays, unless its loss is declared.
+    """
+    link = robot.link.get(WORLD)
+    if link is None or link not in robot.tree.roots or len(robot.tree.roots) < 2:
+        return robot
+    is_declared = any(loss.code == "lossy-world" for loss in claims.losses)
+    is_empty = link.inertial is None and not (link.visuals or link.collisions)
+    if robot.tree.get_child_joints(WORLD) or not (is_empty or is_declared):
+        return robot
+    return replace(robot, links=[other for other in robot.links if other is not link])
 
 
 def make_checks(source: Robot, comparison: Comparison, claims: Claims) -> list[Check]:

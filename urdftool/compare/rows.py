@@ -26,6 +26,12 @@ class Row(NamedTuple):
 NATIVE = "other elements"
 """Row of the elements that only one format has."""
 
+BLOCKS = "simulator data"
+"""Row of the blocks of two URDF."""
+
+LOOPS = "loops"
+"""Row of the connections that close loops."""
+
 ROWS = (
     Row("base", "whether the base is fixed", 0.0),
     Row("tree", "types, parents and mimic of joints [rad, m]", 1e-6),
@@ -47,10 +53,10 @@ ROWS = (
     Row("sensors", "sensors and cameras: link, pose, rate, parameters", 0.0),
     Row("actuators", "drives of joints: kind, gear, gains, ranges", 0.0),
     Row("contact pairs", "links without contact, in two files of one format", 0.0),
-    Row("loops", "connections that close loops, of one format, or URDF and SDF", 0.0),
+    Row(LOOPS, "connections that close loops, of one format, or URDF and SDF", 0.0),
     Row("configurations", "named joint positions, of two files of one format", 0.0),
     Row("plugins", "plugins of URDF and SDF: class and parameters", 0.0),
-    Row("simulator data", "<gazebo>, <transmission>, <ros2_control> of two URDF", 0.0),
+    Row(BLOCKS, "<gazebo>, <transmission>, <ros2_control> of two URDF", 0.0),
     Row(NATIVE, "what only one format has: tendons, lights, what is copied", 1e-6),
     Row("mass matrix", "at 5 configurations, relative to the largest element", 1e-4),
     Row("gravity", "joint forces at 5 configurations, relative to the largest", 1e-4),
@@ -61,8 +67,8 @@ GLOBAL_ROWS = ("mass matrix", "gravity")
 """Properties of the whole robot, which follow from those of its parts."""
 
 EQUIPMENT_ROWS = (
-    *("sensors", "actuators", "contact pairs", "loops", "configurations", "plugins"),
-    *("simulator data", NATIVE, "world"),
+    *("sensors", "actuators", "contact pairs", LOOPS, "configurations", "plugins"),
+    *(BLOCKS, NATIVE, "world"),
 )
 """Properties that are compared in two files of one format."""
 

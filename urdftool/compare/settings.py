@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 
+from ..model.elements import Link, Robot
 from ..model.numbers import describe_content, number
 from ..model.part import Part
 from ..model.settings import (
@@ -16,10 +17,12 @@ from ..model.settings import (
     Content,
     Setting,
     Settings,
+    Value,
 )
-from .difference import Comparison, Difference
+from .difference import Comparison, Difference, describe_change
 from .joints import JointMatch, measure
 from .pair import Match, Pair, locate
+from .tolerance import is_same
 
 
 def compare_surfaces(
@@ -123,11 +126,7 @@ def compare_settings(
     """
     if row not in comparison.tolerances:
         return
-    for setting in rows:
-        parts = settings[0].get(setting.name), settings[1].get(setting.name)
-        x, y = (setting.default if part is None else part.content for part in parts)
-        if parts == (None, None):
-            continue
+    for setting, (x, y), parts in _list_values(rows, settings):
         what = setting.name.replace("_", " ")
         if not setting.path and not setting.mjcf:
             continue
@@ -141,6 +140,70 @@ def compare_settings(
         comparison.add(Difference(row, kind, names, what, values, setting.unit, amount, places))
 
 
+def _list_values(
+    rows: Iterable[Setting], settings: tuple[Settings, Settings]
+) -> Iterator[tuple[Setting, tuple[Content, Content], tuple[Value | None, Value | None]]]:
+    """Yield the settings that one of two parts has, both values, and those that are written.
+
+    The value of a missing one is that which SDF has without it.
+    """
+    for setting in rows:
+        parts = settings[0].get(setting.name), settings[1].get(setting.name)
+        if parts != (None, None):
+            x, y = (setting.default if part is None else part.content for part in parts)
+            yield setting, (x, y), parts
+
+
+def compare_written_settings(
+    a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
+) -> Iterator[Difference]:
+    """Yield the differences of settings of links and joints that both robots have.
+
+    Nothing of two URDF, of which the elements of their blocks are compared.
+
+    Args:
+        a: The first robot.
+        b: The second robot.
+        tolerance: Relative tolerance.
+        renamed: New names of links and joints by their old names.
+    """
+    if a.xml is not None and b.xml is not None:
+        return
+    for x in a.links:
+        link = b.link.get(renamed.get(x.name, x.name))
+        if link is not None:
+            yield from _compare_written_link(x, link, tolerance)
+    for joint in a.joints:
+        other = b.joint.get(renamed.get(joint.name, joint.name))
+        if other is not None:
+            part, settings = ("joint", other.name), (joint.settings, other.settings)
+            yield from _compare_written("joint physics", part, ALL_OF_JOINTS, settings, tolerance)
+
+
+def _compare_written_link(x: Link, y: Link, tolerance: float) -> Iterator[Difference]:
+    """Yield the differences of settings of a link and of its collisions, by name or number."""
+    part, settings = ("link", y.name), (x.settings, y.settings)
+    yield from _compare_written("link flags", part, ALL_OF_LINKS, settings, tolerance)
+    sides = [{c.name or str(i): c.surface for i, c in enumerate(e.collisions, 1)} for e in (x, y)]
+    for name in dict.fromkeys((*sides[0], *sides[1])):
+        settings, about = (sides[0].get(name, {}), sides[1].get(name, {})), f"collision {name}: "
+        yield from _compare_written("surface", part, ALL_SURFACE, settings, tolerance, about)
+
+
+def _compare_written(
+    row: str,
+    part: tuple[str, str],
+    rows: Iterable[Setting],
+    settings: tuple[Settings, Settings],
+    tolerance: float,
+    about: str = "",
+) -> Iterator[Difference]:
+    for setting, values, sides in _list_values(rows, settings):
+        if not is_same(*values, tolerance):
+            what = about + setting.name.replace("_", " ")
+            yield describe_change(row, *part, what, values, sides, setting.unit)
+
+
 def _has(form: str, setting: Setting) -> bool:
     """Tell whether a format has a setting."""
     return bool({"mjcf": setting.mjcf, "usd": setting.usd}.get(form, setting.path))
@@ -149,6 +212,8 @@ def _has(form: str, setting: Setting) -> bool:
 def measure_content(x: Content, y: Content) -> float:
     """Return how far two values are apart, relative above 1; infinite for unequal texts."""
     if isinstance(x, tuple) and isinstance(y, tuple):
+        if len(x) != len(y):
+            return math.inf
         return max((abs(a - b) for a, b in zip(x, y, strict=True)), default=0.0)
     if isinstance(x, str) and isinstance(y, str):
         return measure_text(x, y)

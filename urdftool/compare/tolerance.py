@@ -6,7 +6,9 @@ import math
 from collections.abc import Sequence
 
 from ..model.elements import Vector
-from ..model.pose import Pose, Rotation, multiply_matrices, transpose
+from ..model.part import Origin
+from ..model.pose import Pose, Rotation, make_pose, multiply_matrices, transpose
+from ..model.settings import Value
 
 TOLERANCE = 1e-9
 """Relative tolerance, absolute for positions [m] and angles [rad]; above rounding errors in xacro
@@ -32,6 +34,29 @@ def are_close(a: Sequence[float] | None, b: Sequence[float] | None, tolerance: f
     return len(a) == len(b) and all(
         abs(x - y) <= tolerance * largest for x, y in zip(a, b, strict=True)
     )
+
+
+def is_same(a: object, b: object, tolerance: float) -> bool:
+    """Tell whether two values of a description are equal.
+
+    Args:
+        a: The first: a number, text, vector, origin, setting, or a mapping of these.
+        b: The second.
+        tolerance: Relative tolerance of numbers and vectors, absolute one of origins.
+    """
+    if isinstance(a, Value) and isinstance(b, Value):
+        return is_same(a.content, b.content, tolerance)
+    if isinstance(a, Origin) or isinstance(b, Origin):
+        one, two = (side if isinstance(side, Origin) else None for side in (a, b))
+        return is_same_pose(make_pose(one), make_pose(two), tolerance)
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(is_same(a[key], b[key], tolerance) for key in a)
+    if isinstance(a, tuple) and isinstance(b, tuple) and a != b:
+        numbers = all(isinstance(value, int | float) for value in (*a, *b))
+        return numbers and are_close(a, b, tolerance)
+    if isinstance(a, int | float) and isinstance(b, int | float):
+        return close(a, b, tolerance)
+    return bool(a == b)
 
 
 def compute_distance(a: Vector, b: Vector) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
-from ..compare.change import Change
+from ..compare.difference import EXISTENCE, THERE, Difference
 from ..control_characters import escape_controls
 from .counted import format_count
 from .findings import Painter
@@ -16,7 +16,7 @@ from .json_text import format_json
 _COLORS = {"added": "green", "removed": "red"}
 
 
-def format_text(changes: Iterable[Change], *, colors: bool = False) -> str:
+def format_text(changes: Iterable[Difference], *, colors: bool = False) -> str:
     """Format each changed part with its changes."""
     paint = Painter(colors)
     lines = []
@@ -24,14 +24,15 @@ def format_text(changes: Iterable[Change], *, colors: bool = False) -> str:
         lines.append(paint(title, bold=True))
         for change in group:
             before, after = _collect_values(change)
-            color = _COLORS.get(change.what.rpartition(" ")[2], "yellow")
-            what = paint(escape_controls(change.what), color)
+            what = describe_what(change)
+            color = _COLORS.get(what.rpartition(" ")[2], "yellow")
+            what = paint(escape_controls(what), color)
             lines.append(f"  {what}{_format_change(change, before, after)}")
     return "".join(f"{line}\n" for line in lines)
 
 
-def _format_change(change: Change, before: str, after: str) -> str:
-    remark = f" ({change.remark})" if change.remark else ""
+def _format_change(change: Difference, before: str, after: str) -> str:
+    remark = f" ({change.note})" if change.note else ""
     unit = f" {change.unit}" if change.unit else ""
     if before and after:
         return f": {before} → {after}{unit}{remark}"
@@ -41,11 +42,18 @@ def _format_change(change: Change, before: str, after: str) -> str:
     return f": {' → '.join(sides)}{remark}"
 
 
-def _is_presence(change: Change) -> bool:
-    return change.what.rpartition(" ")[2] in ("added", "removed")
+def _is_presence(change: Difference) -> bool:
+    return describe_what(change).rpartition(" ")[2] in _COLORS
 
 
-def format_markdown(names: tuple[str, str], changes: Sequence[Change]) -> str:
+def describe_what(change: Difference) -> str:
+    """Return the property; ``added`` or ``removed`` for a part that only one robot has."""
+    if change.what != EXISTENCE:
+        return change.what
+    return "added" if change.values[0] is None else "removed"
+
+
+def format_markdown(names: tuple[str, str], changes: Sequence[Difference]) -> str:
     """Format the changes as a Markdown table for a pull request."""
     lines = [f"**{_escape_cell(summarize(names, changes))}**"]
     if changes:
@@ -54,7 +62,12 @@ def format_markdown(names: tuple[str, str], changes: Sequence[Change]) -> str:
         for change in group:
             before, after = _collect_values(change)
             unit = f" {change.unit}" if change.unit else ""
-            cells = (title, change.what, *(v and v + unit for v in (before, after)), change.remark)
+            cells = (
+                title,
+                describe_what(change),
+                *(v and v + unit for v in (before, after)),
+                change.note,
+            )
             lines.append(f"| {' | '.join(map(_escape_cell, cells))} |")
     return "".join(f"{line}\n" for line in lines)
 
@@ -65,7 +78,7 @@ def _escape_cell(text: str) -> str:
     return marked.replace("&", "&amp;")
 
 
-def to_json(names: tuple[str, str], changes: Sequence[Change], tolerance: float) -> str:
+def to_json(names: tuple[str, str], changes: Sequence[Difference], tolerance: float) -> str:
     """Format the changes as one object; lengths [m], angles [rad], masses [kg]."""
     content = {
         "version": 1,
@@ -78,36 +91,46 @@ def to_json(names: tuple[str, str], changes: Sequence[Change], tolerance: float)
     return format_json(content, 1) + "\n"
 
 
-def _record(change: Change) -> dict[str, Any]:
-    record: dict[str, Any] = {"element": {"kind": change.kind, "name": change.name}}
-    record |= {"what": change.what, "before": change.before, "after": change.after}
-    record |= {"remark": change.remark or None, "path": None, "line": None, "column": None}
+def _record(change: Difference) -> dict[str, Any]:
+    record: dict[str, Any] = {"element": {"kind": change.kind, "name": change.new_name}}
+    before, after = _get_values(change)
+    record |= {"what": describe_what(change), "before": before, "after": after}
+    record |= {"remark": change.note or None, "path": None, "line": None, "column": None}
     if change.place is not None:
         line, column = change.place.file.position(change.place.start)
         record |= {"path": change.place.path, "line": line, "column": column}
     return record
 
 
-def summarize(names: tuple[str, str], changes: Sequence[Change]) -> str:
+def summarize(names: tuple[str, str], changes: Sequence[Difference]) -> str:
     """Summarize the number of changes in one line."""
     pair = f"{escape_controls(names[0])} → {escape_controls(names[1])}"
     if not changes:
         return f"{pair}: the same robot"
-    parts = {(change.kind, change.name) for change in changes}
+    parts = {(change.kind, change.new_name) for change in changes}
     return f"{pair}: {format_count(len(changes), 'change')} in {format_count(len(parts), 'part')}"
 
 
-def _list_by_part(changes: Iterable[Change]) -> Iterator[tuple[str, Iterator[Change]]]:
-    ordered: dict[tuple[str, str], list[Change]] = {}
+def _list_by_part(changes: Iterable[Difference]) -> Iterator[tuple[str, Iterator[Difference]]]:
+    ordered: dict[tuple[str, str], list[Difference]] = {}
     for change in changes:
-        ordered.setdefault((change.kind, change.name), []).append(change)
+        ordered.setdefault((change.kind, change.new_name), []).append(change)
     flat = (change for group in ordered.values() for change in group)
-    for (kind, name), group in groupby(flat, key=lambda change: (change.kind, change.name)):
+    for (kind, name), group in groupby(flat, key=lambda change: (change.kind, change.new_name)):
         yield f"{kind} '{escape_controls(name)}'" if name else kind, group
 
 
-def _collect_values(change: Change) -> tuple[str, str]:
-    return _format_value(change.before), _format_value(change.after)
+def _collect_values(change: Difference) -> tuple[str, str]:
+    before, after = _get_values(change)
+    return _format_value(before), _format_value(after)
+
+
+def _get_values(change: Difference) -> tuple[Any, Any]:
+    """Return both values; None for a part that is not described."""
+    if not _is_presence(change):
+        return change.values
+    before, after = (None if value == THERE else value for value in change.values)
+    return before, after
 
 
 def _format_value(value: Any) -> str:

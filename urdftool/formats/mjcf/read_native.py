@@ -260,7 +260,7 @@ def _report_section(context: Context, section: Element) -> None:
         read = READ_IN.get(section.tag)
         if read is None or element.tag == "pair":
             continue  # reported as a whole
-        for attribute in element.attributes.keys() - read:
+        for attribute in sorted(element.attributes.keys() - read):
             code = "keyframe" if section.tag == "keyframe" else "setting"
             code = "display" if attribute in _SHOWN_ONLY else code
             name = f"{attribute} of <{element.tag}> {element.get('name') or ''}".strip()
@@ -275,7 +275,7 @@ def _report_merged(context: Context, section: Element) -> None:
     if section.tag == "size":
         return  # memory and numbers of elements
     if section.tag == "option":
-        for attribute in section.attributes.keys() - _OPTIONS:
+        for attribute in sorted(section.attributes.keys() - _OPTIONS):
             _report(context, "setting", f"{attribute} of <option>", written)
         return
     _report(context, "display", f"<{section.tag}>", written)
