@@ -120,7 +120,10 @@ def test_a_lone_world_is_left_out_if_that_is_declared():
 @pytest.mark.parametrize(("mass", "rows"), [(2, {"tree"}), (3, {"tree", "mass"})])
 def test_an_added_part_on_the_world_is_the_only_difference(mass, rows):
     source = replace(robot(*tree()), base=Base(None, True))
-    on_world = [link("world", ""), *(joint(f"{name}_f", "world", name, "floating") for name in "az")]
+    on_world = [
+        link("world", ""),
+        *(joint(f"{name}_f", "world", name, "floating") for name in "az"),
+    ]
     found = find(prove(source, robot(*on_world, *tree(mass), link("z", "")), Claims()))
     assert found - {"mass matrix", "gravity"} == rows
 

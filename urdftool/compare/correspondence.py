@@ -75,7 +75,7 @@ class Correspondence(NamedTuple):
     """What a file for ``verify --map`` holds.
 
     Attributes:
-        names: Names that belong together, as :func:`names.read_map` returns them.
+        names: Names that belong together: ``joint`` or ``link``, and one in each robot.
         root: New root among the links of A; empty for the same.
         values: Joints whose position has another sign or zero; names of A.
         mirror: Plane of the reflection; empty for none.

@@ -34,30 +34,6 @@ Line = tuple[str, tuple[str, ...]]
 """``joint`` or ``link``, and a name in each robot."""
 
 
-def read_map(path: Path, count: int) -> list[Line]:
-    """Read a file of names: on each line ``joint`` or ``link``, and its name in each robot.
-
-    Text after ``#`` is a comment.
-
-    Args:
-        path: The file.
-        count: Number of robots.
-
-    Raises:
-        ConfigError: The file cannot be read, or a line has another form.
-    """
-    found = []
-    for number, words in read_lines(path):
-        if words[0] not in _KINDS or len(words) != count + 1:
-            names = " ".join("ABCDEFGH"[:count])
-            raise ConfigError(
-                f"line {number} is not 'joint {names}' or 'link {names}', names in each robot",
-                path=path,
-            )
-        found.append((words[0], tuple(words[1:])))
-    return found
-
-
 def read_lines(path: Path) -> list[tuple[int, list[str]]]:
     """Read number and words of each line that has words; a name with spaces is in double quotes.
 

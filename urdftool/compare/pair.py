@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from ..mechanics.reference import Array
-from ..model.elements import Link, Robot
+from ..model.elements import Robot
 from ..model.part import Part
 from ..model.provenance import NOWHERE
 from ..source.location import Place
@@ -162,8 +162,3 @@ def add_presence(
     places = (here, there) if side == 0 else (there, here)
     difference = Difference(row, kind, names, what, values, "", float("inf"), places, owners=owners)
     comparison.add(replace(difference, is_convention=is_convention))
-
-
-def get_members(bodies: Bodies, body: Body) -> list[tuple[Link, Array]]:
-    """Return the links of a body with their poses in its frame."""
-    return [(bodies.robot.link[name], pose) for name, pose in body.members.items()]

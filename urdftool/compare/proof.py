@@ -137,7 +137,7 @@ def prove(
         result does not hold.
     """
     one, two = join_trees(_drop_world(source, claims)), join_trees(result)
-    if _stands_on_world(two) and one.base is not None and one.base.is_free:
+    if _has_free_trees(two) and one.base is not None and one.base.is_free:
         one = _put_on_world(one)
     try:
         comparison = compare_robots(one, two, rows=rows, names=claims.names, meshes=meshes)
@@ -207,7 +207,7 @@ def _put_on_world(robot: Robot) -> Robot:
     return replace(robot, links=links, joints=[*robot.joints, *joints], base=None)
 
 
-def _stands_on_world(robot: Robot) -> bool:
+def _has_free_trees(robot: Robot) -> bool:
     """Tell whether a robot is several free trees on a link ``world``."""
     root = robot.tree.root
     below = [] if root is None or root.name != WORLD else robot.tree.get_child_joints(WORLD)

@@ -144,8 +144,8 @@ def compare_all(
     Args:
         robots: The robots.
         rows: Properties to compare.
-        names: Known names, as :func:`names.read_map` returns them, or how the second of two robots
-            was made of the first.
+        names: Known names, ``joint`` or ``link`` and one in each robot, or how the second of two
+            robots was made of the first.
 
     Raises:
         ConfigError: The first robot cannot be what the correspondence declares.

@@ -23,11 +23,6 @@ def compute_extent(points: Floats) -> float:
     return float((high - low).max())
 
 
-def compute_mean(points: Floats) -> Floats:
-    """Compute the mean of points, shape (n, 3), n > 0."""
-    return np.array([points[:, axis].mean() for axis in range(points.shape[1])])
-
-
 def shift_points(points: Floats, by: Floats) -> Floats:
     """Add one vector to points, shape (…, 3)."""
     made = np.empty_like(points)

@@ -187,8 +187,3 @@ def format_named(name: str) -> Format:
 def get_writable_formats() -> tuple[Format, ...]:
     """Return the formats that have a writer."""
     return tuple(format_ for format_ in FORMATS if format_.can_write)
-
-
-def get_readable_formats() -> tuple[Format, ...]:
-    """Return the formats that have a reader."""
-    return tuple(format_ for format_ in FORMATS if format_.can_read)

@@ -110,9 +110,3 @@ COLORS: dict[str, Color] = {
 
 PICTURED = frozenset(list(COLORS)[list(COLORS).index("Gazebo/PioneerBody") :])
 """Names of the materials with an image."""
-
-
-def get_rgba(material: str) -> tuple[float, float, float, float] | None:
-    """Return diffuse color and alpha of a material by its name; None for an unknown one."""
-    color = COLORS.get(f"Gazebo/{material.rpartition('/')[2]}") if material else None
-    return None if color is None else (*color.diffuse, color.alpha)

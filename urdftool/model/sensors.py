@@ -208,12 +208,6 @@ def _make_camera(
     return Camera(provenance, name, link, origin, vertical, size, type_, settings)
 
 
-def get_content(settings: Settings, name: str) -> Content:
-    """Return a setting of a sensor; the default where it is not written."""
-    value = settings.get(name)
-    return get_sensor_row(name).default if value is None else value.content
-
-
 def read_sensor_pose(element: Element) -> tuple[Pose, str]:
     """Return the ``<pose>`` of an element and the frame that it names; what is invalid is zero."""
     child = element.find_child("pose")

@@ -9,6 +9,7 @@ from .mechanism import Base
 from .numbers import parse_numbers
 from .part import ZERO, Origin
 from .pose import get_origin_at, make_pose
+from .references import list_elements_by_reference
 from .settings import get_text, is_set
 
 WORLD = "world"
@@ -68,12 +69,9 @@ def find_model_origin(robot: Robot) -> Origin | None:
     """
     if robot.base is not None:
         return robot.base.origin
-    poses = [
-        element
-        for block in robot.extensions.get(None, [])
-        for element in block.element.list_children("pose")
-    ]
-    for element in reversed(poses):
+    for element in reversed(list_elements_by_reference(robot).get("", [])):
+        if element.tag != "pose":
+            continue
         six = parse_numbers(get_text(element), 6)
         if six is not None:
             return Origin(element, six[:3], six[3:])  # type: ignore[arg-type]

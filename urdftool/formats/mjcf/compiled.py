@@ -175,14 +175,6 @@ class Compiled:
         names = [name for name in dir(model.opt) if not name.startswith("_")]
         return {name: np.array(getattr(model.opt, name)).tolist() for name in names}
 
-    def get_options(self, section: str) -> dict[str, Any]:
-        """Return the options that an ``<option>`` element sets; empty if MuJoCo rejects it."""
-        try:
-            model = self.mujoco.MjModel.from_xml_string(f"<mujoco>{section}</mujoco>")
-        except ValueError:
-            return {}
-        return self._collect_options(model)
-
     def get_reference(self) -> Any:
         """Return a model of one body, joint and geom with MuJoCo's defaults."""
         if self._reference is None:
@@ -300,19 +292,6 @@ class Compiled:
             full[:, dof] = column
         full -= np.diag(self.model.dof_armature)
         return full[np.ix_(dofs, dofs)]
-
-    def get_moved_by(self, joint: str) -> tuple[float, float]:
-        """Return the inertia [kg·m² or kg] that a joint moves: with other joints held, and free.
-
-        MuJoCo computes critical damping from the first, and from the second since version 4.
-        """
-        everything = list(range(self.model.nv))
-        matrix = self.compute_mass_matrix(everything) + np.diag(self.model.dof_armature)
-        dof = self.get_dofs([joint])[0]
-        unit = np.zeros(len(everything))
-        unit[dof] = 1.0
-        free = np.linalg.lstsq(matrix, unit, rcond=None)[0][dof]
-        return float(matrix[dof, dof]), 1 / float(free) if free > 0 else 0.0
 
     def get_gravity(self, dofs: list[int]) -> Array:
         """Return the force [N·m or N] that each degree of freedom needs to hold still."""

@@ -113,11 +113,6 @@ class Options:
         return tuple(path for path in (self.srdf, self.actuator_config) if path is not None)
 
     @property
-    def has_newton(self) -> bool:
-        """Tell whether attributes of Newton are written."""
-        return True
-
-    @property
     def has_physx(self) -> bool:
         """Tell whether attributes of PhysX are written."""
         return self.target != "newton"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...model.block_elements import list_model_elements
 from ...model.elements import Joint, Robot
 from ...source.document import Element
 from ..inertia.bodies import compute_mass, find_rigid_bodies
@@ -58,6 +59,4 @@ def is_named_as_link(robot: Robot, joint: Joint, kept: set[str]) -> bool:
 
 def find_sdf_joints(robot: Robot) -> Iterator[Element]:
     """List the ``<joint>`` elements of SDF in ``<gazebo>`` blocks without a reference."""
-    for block in robot.gazebo:
-        if not block.reference:
-            yield from block.element.list_children("joint")
+    yield from (element for element in list_model_elements(robot) if element.tag == "joint")

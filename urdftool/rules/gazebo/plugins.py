@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from ...model.block_elements import list_model_elements
 from ...model.elements import Plugin, Robot
 from ...model.gazebo_plugins import SYSTEM_PLUGINS, convert_parameters, get_class, get_file
 from ...model.gazebo_plugins import get_library as library_of
@@ -70,7 +71,7 @@ def classic_plugin_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
     """
     if "gazebo-classic" in targets:
         return
-    inside = {id(p.element) for b in robot.gazebo for s in b.sensors for p in s.plugins}
+    inside = {id(plugin.element) for sensor in robot.sensors for plugin in sensor.plugins}
     for plugin in robot.plugins:
         library = plugin.filename.rpartition("/")[2]
         if not library.startswith(CLASSIC):
@@ -333,22 +334,21 @@ def duplicate_plugin_name(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
     if "ros1" in targets and "ros2" not in targets:
         return
     seen: set[tuple[str, str]] = set()
-    for block in robot.gazebo:
-        if block.reference:
+    of_model = {id(element) for element in list_model_elements(robot)}
+    for plugin in robot.plugins:
+        library = plugin.filename.rpartition("/")[2]
+        is_of_model = id(plugin.element) in of_model
+        if not (is_of_model and plugin.name and library.startswith("libgazebo_ros")):
             continue
-        for plugin in block.plugins:
-            library = plugin.filename.rpartition("/")[2]
-            if not plugin.name or not library.startswith("libgazebo_ros"):
-                continue
-            spaces = [one.text.strip() for one in plugin.element.walk() if one.tag == "namespace"]
-            key = (spaces[0] if spaces else "", plugin.name)
-            if key in seen:
-                yield Problem(
-                    plugin.element,
-                    f"another plugin also has the name '{plugin.name}'; make it unique",
-                    at=plugin.locate_attribute("name"),
-                )
-            seen.add(key)
+        spaces = [one.text.strip() for one in plugin.element.walk() if one.tag == "namespace"]
+        key = (spaces[0] if spaces else "", plugin.name)
+        if key in seen:
+            yield Problem(
+                plugin.element,
+                f"another plugin also has the name '{plugin.name}'; make it unique",
+                at=plugin.locate_attribute("name"),
+            )
+        seen.add(key)
 
 
 @duplicate_plugin_name.fix(UNSAFE)

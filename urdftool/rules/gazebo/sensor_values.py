@@ -22,11 +22,10 @@ _FRAMES = ("gz_frame_id", "ignition_frame_id", "optical_frame_id")
 
 def _iterate_elements(robot: Robot, tags: tuple[str, ...]) -> Iterator[tuple[Sensor, Element]]:
     """Yield each sensor with its elements of some tags that have an expanded text."""
-    for block in robot.gazebo:
-        for sensor in block.sensors:
-            for element in sensor.element.walk():
-                if element.tag in tags and element.text.strip() and not is_unexpanded(element.text):
-                    yield sensor, element
+    for sensor in robot.sensors:
+        for element in sensor.element.walk():
+            if element.tag in tags and element.text.strip() and not is_unexpanded(element.text):
+                yield sensor, element
 
 
 @rule(

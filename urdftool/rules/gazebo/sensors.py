@@ -72,7 +72,7 @@ def unknown_sensor_type(robot: Robot) -> Iterator[Problem]:
     sdformat reports that the sensor type is missing or invalid, and Gazebo does not create the
     sensor.
     """
-    for _, sensor in _iterate_sensors(robot):
+    for sensor in robot.sensors:
         if sensor.type not in TYPES:
             what = f"'{sensor.type}' is not a sensor type" if sensor.type else "no sensor type"
             near = suggest_name(sensor.type, TYPES) if sensor.type else ""
@@ -107,7 +107,7 @@ def cpu_ray_in_gz(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """
     if "gazebo-classic" in targets:
         return
-    for _, sensor in _iterate_sensors(robot):
+    for sensor in robot.sensors:
         if sensor.type in ("ray", "lidar"):
             yield Problem(
                 sensor.element,
@@ -143,7 +143,7 @@ def ros_plugin_inside_sensor(robot: Robot, targets: frozenset[str]) -> Iterator[
     """
     if "gazebo-classic" in targets:
         return
-    for _, sensor in _iterate_sensors(robot):
+    for sensor in robot.sensors:
         for plugin in sensor.plugins:
             if plugin.filename.rpartition("/")[2].startswith("libgazebo_ros_"):
                 yield Problem(
@@ -393,7 +393,7 @@ def duplicate_sensor_name(robot: Robot) -> Iterator[Problem]:
 @duplicate_sensor_name.fix(UNSAFE)
 def number_sensor(problem: Problem, context: FixContext) -> Proposal | None:
     """Append a number to the duplicate name."""
-    return append_number(problem, {sensor.name for _, sensor in _iterate_sensors(context.robot)})
+    return append_number(problem, {sensor.name for sensor in context.robot.sensors})
 
 
 _SENSOR_LINK = re.compile(r"camera|lidar|laser|(^|_)(scan|imu|gps)(_|$)", re.IGNORECASE)
@@ -466,7 +466,7 @@ def sensor_needs_world_system(robot: Robot) -> Iterator[Problem]:
     """
     loaded = [plugin.filename for block in robot.gazebo for plugin in block.plugins]
     found: dict[str, Sensor] = {}
-    for _, sensor in _iterate_sensors(robot):
+    for sensor in robot.sensors:
         system = _SYSTEM_OF.get(sensor.type)
         if system is not None and not any(f"-{system}-system" in name for name in loaded):
             found.setdefault(system, sensor)
