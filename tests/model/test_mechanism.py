@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from tests.build import arm, joint, robot
-from urdftool.compare.links import describe_shape
 from urdftool.formats import registry
 from urdftool.formats.mjcf.options import Options as MjcfOptions
 from urdftool.formats.sdf.options import Options as SdfOptions
@@ -30,7 +29,7 @@ from urdftool.model.mechanism import (
     MountedSensor,
 )
 from urdftool.model.pose import IDENTITY, Pose, rotation_from_rpy
-from urdftool.model.shapes import get_shape_name
+from urdftool.model.shapes import describe_shape, get_shape_name
 
 TURNED = Pose(rotation_from_rpy((0.4, -0.7, 1.9)), (1.0, 2.0, 3.0))
 

@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from ..mechanics.reference import Array
-from ..model.pose import Pose
+from ..model.part import Origin
+from ..model.pose import Pose, get_origin_at
 
 
 def make_matrix(pose: Pose) -> Array:
@@ -15,6 +16,13 @@ def make_matrix(pose: Pose) -> Array:
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.translation
     return matrix
+
+
+def make_origin(matrix: Array) -> Origin:
+    """Return the ``Origin`` of a pose, 4 × 4."""
+    (a, b, c), (d, e, f), (g, h, i) = matrix[:3, :3].tolist()
+    x, y, z = matrix[:3, 3].tolist()
+    return get_origin_at(Pose(((a, b, c), (d, e, f), (g, h, i)), (x, y, z)))
 
 
 def invert(pose: Array) -> Array:

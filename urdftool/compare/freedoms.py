@@ -13,8 +13,7 @@ import numpy as np
 from ..mechanics.reference import Array, get_origin_matrix
 from ..model.elements import Axis, Joint, Link, Robot
 from ..model.part import Origin, Vector
-from ..model.pose import Pose, get_origin_at
-from .frames import invert
+from .frames import invert, make_origin
 from .pair import Pair
 
 _DIRECTIONS: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -52,7 +51,7 @@ def expand_joints(pair: Pair) -> tuple[Robot, Robot, dict[str, str]]:
 def place_root(robot: Robot, root: str, frame: Array) -> Robot:
     """Return a robot whose root is fixed at a pose, 4 × 4, on another link."""
     name = f"{BASE}~~"
-    joint = Joint(None, name, "fixed", name, root, origin=_make_origin(frame))
+    joint = Joint(None, name, "fixed", name, root, origin=make_origin(frame))
     return replace(robot, links=[Link(None, name), *robot.links], joints=[joint, *robot.joints])
 
 
@@ -77,18 +76,12 @@ def _replace(
         [j for j in robot.joints if j is not joint],
         joint.parent,
     )
-    at: Origin | None = _make_origin(origin)
+    at: Origin | None = make_origin(origin)
     for number, (kind, axis) in enumerate(chain):
         name = f"{joint.name}~{number}"
         links.append(Link(None, name))
         joints.append(Joint(None, name, kind, parent, name, origin=at, axis=Axis(None, axis)))
         parent, at = name, None
     name = f"{joint.name}~"
-    joints.append(Joint(None, name, "fixed", parent, joint.child, origin=_make_origin(frame)))
+    joints.append(Joint(None, name, "fixed", parent, joint.child, origin=make_origin(frame)))
     return replace(robot, links=links, joints=joints)
-
-
-def _make_origin(matrix: Array) -> Origin:
-    (a, b, c), (d, e, f), (g, h, i) = matrix[:3, :3].tolist()
-    x, y, z = matrix[:3, 3].tolist()
-    return get_origin_at(Pose(((a, b, c), (d, e, f), (g, h, i)), (x, y, z)))

@@ -6,26 +6,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..mechanics.tensor import SymmetricTensor, rotate_tensor
-from ..model.elements import (
-    Box,
-    Capsule,
-    Collision,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    Geometry,
-    Inertial,
-    Link,
-    Material,
-    Mesh,
-    Plane,
-    Robot,
-    Sphere,
-    Visual,
-)
+from ..model.elements import Collision, Inertial, Link, Material, Robot, Visual
 from ..model.materials import resolve_material
 from ..model.pose import Pose, make_pose, make_restored_pose, rpy_from_rotation
-from ..model.shapes import get_shape_name
+from ..model.shapes import describe_shape
 from .difference import Difference, describe_change
 from .tolerance import are_close, close, compute_distance, format_motion, is_same, is_same_pose
 
@@ -160,26 +144,6 @@ def _compare_shape(
         looks = _get_look(robots[0], a.material), _get_look(robots[1], b.material)
         if looks[0] != looks[1]:
             yield describe_change("colors", "link", name, f"{kind}{number} material", looks, sides)
-
-
-def describe_shape(geometry: Geometry | None) -> dict[str, Any]:
-    """Return geometry as data: its type, and its lengths [m] or its file."""
-    if geometry is None:
-        return {"shape": None}
-    facts: dict[str, Any] = {"shape": get_shape_name(geometry)}
-    if isinstance(geometry, Box):
-        facts["size"] = geometry.size
-    elif isinstance(geometry, Ellipsoid):
-        facts["radii"] = geometry.radii
-    elif isinstance(geometry, Plane):
-        facts["size"] = geometry.size
-    elif isinstance(geometry, Cylinder | Capsule | Cone):
-        facts |= {"radius": (geometry.radius,), "length": (geometry.length,)}
-    elif isinstance(geometry, Sphere):
-        facts["radius"] = (geometry.radius,)
-    elif isinstance(geometry, Mesh):
-        facts |= {"filename": geometry.filename, "scale": geometry.scale}
-    return facts
 
 
 def describe_pose(pose: Pose) -> dict[str, Any]:

@@ -10,8 +10,8 @@ import numpy as np
 from ..mechanics.reference import Array, get_origin_matrix
 from ..model.elements import Robot
 from ..model.mechanism import Closure
-from ..model.pose import Pose, get_origin_at
 from .bodies import Bodies
+from .frames import make_origin
 from .pair import Pair
 
 
@@ -46,11 +46,6 @@ def _put_into_bodies(
             return closure
         name, frame = frames[body]
         pose: Array = frame @ bodies.by_name[body].members[link] @ get_origin_matrix(origin)
-        ends.append((name, get_origin_at(_make_pose(pose))))
+        ends.append((name, make_origin(pose)))
     (parent, origin), (child, child_origin) = ends
     return replace(closure, parent=parent, child=child, origin=origin, child_origin=child_origin)
-
-
-def _make_pose(matrix: Array) -> Pose:
-    (a, b, c), (x, y, z) = matrix[:3, :3].tolist(), matrix[:3, 3].tolist()
-    return Pose((tuple(a), tuple(b), tuple(c)), (x, y, z))

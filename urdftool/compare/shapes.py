@@ -28,7 +28,7 @@ from ..model.elements import (
 )
 from ..model.gltf_axes import is_gltf
 from ..model.materials import UNCOLORED, find_gazebo_material, find_shown_material
-from ..model.shapes import get_shape_name
+from ..model.shapes import describe_shape, get_shape_name
 from .bodies import Bodies, Body
 from .difference import Comparison, Difference
 from .frames import describe_pose, format_vector, invert, measure_largest
@@ -343,22 +343,18 @@ def _add(state: _Comparing, x: Placed, y: Placed, amount: float, note: str) -> N
 def _describe(placed: Placed) -> str:
     """Describe a shape with its size and its pose in the link."""
     geometry = placed.geometry
-    at = describe_pose(get_origin_matrix(placed.shape.origin))
-    name = get_shape_name(geometry)
+    lengths: list[float] = []
     if isinstance(geometry, Mesh):
-        scale = (
-            "" if geometry.scale == (1, 1, 1) else f" × {format_vector(np.array(geometry.scale))}"
-        )
-        return f"mesh {geometry.filename.rpartition('/')[2]}{scale} at {at}"
-    size = _get_size(geometry)
-    if isinstance(geometry, Sphere):
-        return f"sphere {geometry.radius:.6g} at {at}"
-    if isinstance(geometry, Cylinder | Capsule | Cone):
-        return f"{name} {geometry.radius:.6g} {geometry.length:.6g} at {at}"
-    text = (
-        "" if size is None or isinstance(geometry, Plane) else f" {format_vector(np.array(size))}"
-    )
-    return f"{name}{text} at {at}"
+        text = f"mesh {geometry.filename.rpartition('/')[2]}"
+        if geometry.scale != (1, 1, 1):
+            text, lengths = f"{text} ×", list(geometry.scale)
+    else:
+        facts = describe_shape(geometry)
+        text = facts.pop("shape")
+        if not isinstance(geometry, Plane):
+            lengths = [length for value in facts.values() for length in value]
+    at = describe_pose(get_origin_matrix(placed.shape.origin))
+    return " ".join((text, *(f"{length:.6g}" for length in lengths), "at", at))
 
 
 def _compare_surfaces(state: _Comparing, x: Placed, y: Placed) -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Union
+from dataclasses import dataclass, fields, replace
+from typing import Any, Union
 
 from .part import ZERO, Part, Vector
 
@@ -109,3 +109,15 @@ def has_equal_values(one: Geometry | None, other: Geometry | None) -> bool:
 def get_shape_name(geometry: Geometry) -> str:
     """Return the name of a shape's type: the tag of its element in URDF and SDF."""
     return geometry.tag if isinstance(geometry, UnknownShape) else _NAMES[type(geometry)]
+
+
+def describe_shape(geometry: Geometry | None) -> dict[str, Any]:
+    """Return geometry as data: its type, and its lengths [m] as tuples, or its file."""
+    if geometry is None or isinstance(geometry, UnknownShape):
+        return {"shape": None if geometry is None else geometry.tag}
+    facts: dict[str, Any] = {"shape": get_shape_name(geometry)}
+    for field in fields(geometry):
+        value = getattr(geometry, field.name)
+        if field.name != "provenance":
+            facts[field.name] = (value,) if isinstance(value, int | float) else value
+    return facts

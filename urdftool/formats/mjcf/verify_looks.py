@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from ...compare.check import Check
-from ...compare.links import describe_shape
 from ...errors import UrdftoolError
 from ...geometry.image_file import open_image
 from ...geometry.mesh import Part
 from ...model.elements import Capsule, Geometry, Link, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
+from ...model.shapes import describe_shape
 from ..common.losses import DeclaredLosses, list_look_names
 from .compiled import Compiled
 from .declared_losses import LOOKS, SHAPES
