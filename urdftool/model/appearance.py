@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 from ..source.document import Element
 from .gazebo_colors import COLORS, Color
 from .materials import resolve_material
-from .references import list_elements_by_reference
 from .settings import Setting, Settings, Value, get_text, read_sdf_settings
 
 if TYPE_CHECKING:
@@ -51,7 +50,7 @@ def add_appearance(robot: Robot) -> None:
     A ``<material>`` with children replaces that of URDF, the last of several counts; the elements
     of ``<visual>`` are added to it.
     """
-    blocks = list_elements_by_reference(robot)
+    blocks = robot.block_elements
     for link in robot.links:
         found = _read_blocks(blocks.get(link.name, ()))
         script = _find_block_script(blocks.get(link.name, ()))

@@ -407,6 +407,14 @@ class Robot(RobotConversions, Part):
         return found
 
     @cached_property
+    def block_elements(self) -> dict[str, list[Element]]:
+        """Return the children of ``<gazebo>`` blocks by reference; the robot's by an empty one."""
+        found: dict[str, list[Element]] = {}
+        for block in self.gazebo:
+            found.setdefault(block.reference or "", []).extend(block.element.children)
+        return found
+
+    @cached_property
     def sensors(self) -> list[Sensor]:
         """Return all ``<sensor>`` elements of ``<gazebo>`` blocks, as they are written."""
         return [sensor for block in self.gazebo for sensor in block.sensors]

@@ -19,7 +19,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..source.document import Element
 from .numbers import number, parse_numbers
 from .part import Part
-from .references import list_elements_by_reference
 
 if TYPE_CHECKING:
     from .elements import Robot
@@ -436,9 +435,9 @@ def read_options(extensions: Iterable[Element]) -> Settings:
 def add_settings(robot: Robot) -> None:
     """Read the settings of a URDF: from ``<gazebo>`` blocks and Bullet's ``<contact>``."""
     robot.world = read_options(() if robot.xml is None else robot.xml.list_children("mujoco"))
-    blocks = list_elements_by_reference(robot)
+    blocks = robot.block_elements
     own = _Reading(robot.name, "robot")
-    robot.settings = _read_elements(robot, own, blocks.pop("", []), OF_ROBOT)
+    robot.settings = _read_elements(robot, own, blocks.get("", []), OF_ROBOT)
     for link in robot.links:
         contact = link.find_child_xml("contact")
         elements = blocks.get(link.name, [])

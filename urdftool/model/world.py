@@ -9,7 +9,6 @@ from .mechanism import Base
 from .numbers import parse_numbers
 from .part import ZERO, Origin
 from .pose import get_origin_at, make_pose
-from .references import list_elements_by_reference
 from .settings import get_text, is_set
 
 WORLD = "world"
@@ -69,7 +68,7 @@ def find_model_origin(robot: Robot) -> Origin | None:
     """
     if robot.base is not None:
         return robot.base.origin
-    for element in reversed(list_elements_by_reference(robot).get("", [])):
+    for element in reversed(robot.block_elements.get("", [])):
         if element.tag != "pose":
             continue
         six = parse_numbers(get_text(element), 6)
