@@ -186,3 +186,18 @@ def test_the_root_of_a_robot_that_walks_is_the_body_that_moves(tmp_path, name, c
         JOINT.format("turn", "continuous", "base", name, "0 1 0", ""),
     ]
     assert len(find(tmp_path, "root-link-has-inertia", *parts, targets=["ros1"])) == count
+
+
+@pytest.mark.parametrize(
+    ("parent", "more", "count"),
+    [("world", "", 0), ("base", "", 1), ("world", BOX.format(0, 1, 1, 1), 1)],
+)
+def test_a_robot_of_drake_without_collisions_is_only_for_motion(tmp_path, parent, more, count):
+    visual = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
+    parts = [
+        *(LINK.format("base", visual + more), LINK.format("arm", visual)),
+        JOINT.format("swing", "revolute", "base", "arm", "0 0 1", RANGE),
+        JOINT.format("weld", "fixed", parent, "base", "0 0 1", "") if parent == "world" else "",
+    ]
+    found = find(tmp_path, "missing-collision", *parts)
+    assert bool(found) is bool(count)

@@ -30,7 +30,7 @@ from ..rule import INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..shape_changes import copy_shape
 from ..symmetry import get_family
 from ..words import join_some
-from ..xml.vocabulary_table import find_misspelled_children
+from ..xml.vocabulary_table import find_misspelled_children, is_for_another_reader
 
 _FRAME = re.compile(r"optical|(^|_)frame$")
 _VIRTUAL = re.compile(r"(^|_)(virtual|dummy)(_|\d|$)|_visuals?$", re.IGNORECASE)
@@ -69,10 +69,13 @@ def missing_collision(
     as in robots of few collision shapes, links smaller than ``small`` [m], and those inside the
     bounding box of their rigid body's collisions. Links of at most ``smallest`` [m], which mark
     frames, links named virtual or dummy, and those with fully transparent visuals are skipped, and
-    so is a single link without mass, such as the marker of a goal.
+    so is a single link without mass, such as the marker of a goal. Neither is a robot without any
+    collision that only Drake or MuJoCo reads, such as a pendulum of which the motion is computed.
     """
     if len(robot.links) == 1 and not robot.links[0].mass:
         return  # a marker, such as a goal
+    if _is_only_for_motion(robot):
+        return
     seen = [link for link in robot.links if _compute_visual_size(link) > smallest]
     colors = {one.name: one.color for one in robot.materials if one.color is not None}
     ghosts = [link for link in seen if not link.collisions and not _is_invisible(link, colors)]
@@ -98,6 +101,17 @@ def missing_collision(
             group="{count} links have a visual but no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
         )
+
+
+def _is_only_for_motion(robot: Robot) -> bool:
+    """Tell whether a robot of which no link collides is for Drake or MuJoCo, by its elements.
+
+    Drake alone accepts a joint to ``world`` without a link of that name.
+    """
+    if any(link.collisions for link in robot.links):
+        return False
+    to_world = any(joint.parent == "world" for joint in robot.joints)
+    return is_for_another_reader(robot.xml) or (to_world and "world" not in robot.link)
 
 
 @missing_collision.full

@@ -134,6 +134,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
                 continue
         elif held and not targets.isdisjoint(("mujoco", "pybullet")):
             continue  # its mass has no effect there
+        elif held and kept is None:
+            continue  # Gazebo reads no such robot, and others need no mass there
         elif held:
             outcome, severity = "static", INFO
             so = f" and is fixed to the world; {_REMOVED}"

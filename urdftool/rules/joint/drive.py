@@ -147,7 +147,7 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
     group="robot",
 )
 def implausible_velocity(
-    robot: Robot, *, fastest_turn: float = 200.0, fastest_slide: float = 20.0, together: float = 4
+    robot: Robot, *, fastest_turn: float = 200.0, fastest_slide: float = 50.0, together: float = 4
 ) -> Iterator[Problem]:
     """A velocity limit is higher than joints of robots reach.
 
