@@ -78,6 +78,7 @@ def make_continuous(problem: Problem, context: FixContext) -> Proposal | None:
         "mujoco": "loads it: without effort there is no limit, and velocity is never read",
         "drake": "loads it: without velocity there is no limit",
     },
+    group="robot",
 )
 def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
     """A ``<limit>`` has no effort or no velocity.
@@ -102,6 +103,7 @@ def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
                 joint,
                 f"<limit> of joint '{joint.name}' has no {words}; both are required",
                 at=limit,
+                alike=tuple(missing),
                 data={"missing": missing},
             )
 
