@@ -132,10 +132,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
                 several = ", and the links fixed to them are lighter than air of their size"
             elif held or _is_marker(link) or is_slight_frame(robot, link):
                 continue
-        elif held and not targets.isdisjoint(("mujoco", "pybullet")):
-            continue  # its mass has no effect there
-        elif held and kept is None:
-            continue  # Gazebo reads no such robot, and others need no mass there
+        elif held and (kept is None or not targets.isdisjoint(("mujoco", "pybullet"))):
+            continue  # its mass has no effect there, and Gazebo reads only one tree
         elif held:
             outcome, severity = "static", INFO
             so = f" and is fixed to the world; {_REMOVED}"
