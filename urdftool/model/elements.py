@@ -298,6 +298,10 @@ class Joint(Part):
         """Tell whether the type requires limits."""
         return self.type in ("revolute", "prismatic")
 
+    def get_resistance(self, name: str) -> float:
+        """Return ``damping``, ``friction`` or ``armature``; 0 if it is not written or negative."""
+        return max(getattr(self.dynamics, name, None) or 0.0, 0.0)
+
     @property
     def turns_freely(self) -> bool:
         """Tell whether it is continuous, or revolute with a drive and no written bound.

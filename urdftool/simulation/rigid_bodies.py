@@ -282,7 +282,6 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
     if lower > upper:
         lower, upper = -math.inf, math.inf
     effort = joint.limit.effort if joint.limit is not None else None
-    dynamics = joint.dynamics
     mimic = joint.mimic
     stiffness, spring_rest = joint.spring or (0.0, 0.0)
     return RigidBodyJoint(
@@ -292,8 +291,8 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
         lower,
         upper,
         effort if effort is not None and effort > 0 else None,
-        max(0.0, (dynamics.damping or 0.0) if dynamics else 0.0),
-        max(0.0, (dynamics.friction or 0.0) if dynamics else 0.0),
+        joint.get_resistance("damping"),
+        joint.get_resistance("friction"),
         mimic.joint if mimic is not None and mimic.joint in find_movable_joints(robot) else None,
         mimic.multiplier if mimic is not None else 1.0,
         mimic.offset if mimic is not None else 0.0,

@@ -76,7 +76,7 @@ def set_joint_values(
 
 def _has_armature(joint: Joint, settings: JointSettings | None) -> bool:
     """Tell whether the description or the user gives a joint an armature."""
-    if joint.dynamics is not None and joint.dynamics.armature:
+    if joint.get_resistance("armature"):
         return True
     return settings is not None and bool(settings.armature)
 

@@ -126,7 +126,7 @@ def plan_servos(
 def _add_armature(joint: Joint, load: JointLoad, settings: JointSettings) -> JointLoad:
     armature = settings.armature
     if armature is None:
-        armature = (joint.dynamics and joint.dynamics.armature) or 0.0
+        armature = joint.get_resistance("armature")
     return load.add_armature(max(armature, 0.0))
 
 

@@ -91,15 +91,15 @@ def choose_joint_values(
 
 def get_own_values(joint: Joint) -> JointValues:
     """Return the values of the description of a joint, without gains; none is negative."""
-    limit, dynamics = joint.limit, joint.dynamics
+    limit = joint.limit
     effort = limit.effort if limit is not None else None
     velocity = limit.velocity if limit is not None else None
     return JointValues(
         effort=None if effort is None or not math.isfinite(effort) else abs(effort),
         velocity=None if not velocity or not math.isfinite(velocity) else abs(velocity),
-        friction=max((dynamics.friction if dynamics else None) or 0.0, 0.0),
-        damping=max((dynamics.damping if dynamics else None) or 0.0, 0.0),
-        armature=max((dynamics.armature if dynamics else None) or 0.0, 0.0),
+        friction=joint.get_resistance("friction"),
+        damping=joint.get_resistance("damping"),
+        armature=joint.get_resistance("armature"),
     )
 
 

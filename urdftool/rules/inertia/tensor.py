@@ -433,7 +433,7 @@ def tiny_moving_inertia(
         inertia = compute_joint_inertia(robot, joint, poses) if joint.child in poses else 0.0
         if not 0 < inertia < most:
             continue
-        damping = (joint.dynamics.damping or 0.0) if joint.dynamics is not None else 0.0
+        damping = joint.get_resistance("damping")
         effort = (joint.limit.effort or 0.0) if joint.limit is not None else 0.0
         lower, upper = get_limits(joint)
         reach = min(upper - lower, math.inf if slides else 2 * math.pi)

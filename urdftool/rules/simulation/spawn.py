@@ -33,7 +33,7 @@ def stiff_joint_damping(robot: Robot, *, timestep: float = 0.001) -> Iterator[Pr
     """
     poses = link_poses(robot)
     for joint in robot.joints:
-        damping = joint.dynamics.damping if joint.dynamics is not None else None
+        damping = joint.get_resistance("damping")
         if joint.type not in MOVABLE or not damping or joint.child not in poses:
             continue
         inertia = compute_joint_inertia(robot, joint, poses)
