@@ -92,6 +92,20 @@ def test_json_follows_its_schema(urdftool, write):
     jsonschema.validate(same, SCHEMA)
 
 
+def test_json_of_elements_that_only_one_format_has_follows_its_schema(urdftool, write):
+    model = (
+        '<sdf version="1.9"><model name="m"><link name="a">{}'
+        "<inertial><mass>1</mass></inertial></link>{}</model></sdf>"
+    )
+    light = '<light name="l" type="point"/>'
+    plugin = '<plugin name="p" filename="f"/><gripper name="g"/>'
+    files = write("a.sdf", model.format("", "")), write("b.sdf", model.format(light, plugin))
+    found = json.loads(urdftool("diff", *files, "--format", "json").out)
+    jsonschema.validate(found, SCHEMA)
+    assert {"<light>", "plugin"} <= {change["element"]["kind"] for change in found["changes"]}
+    assert {change["what"] for change in found["changes"]} == {"added"}
+
+
 def test_markdown_is_a_table_in_which_names_are_no_markup(urdftool, write):
     old = write("old.urdf", '<robot name="r"><link name="a"/></robot>')
     new = write("new.urdf", '<robot name="r"><link name="a"/><link name="|&lt;b>`*"/></robot>')

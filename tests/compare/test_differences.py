@@ -7,9 +7,12 @@ from hypothesis import strategies as st
 from tests.graph.robots import robot
 from urdftool.compare.difference import THERE
 from urdftool.compare.differences import compare
-from urdftool.compare.tolerance import close, compute_angle
+from urdftool.compare.settings import measure_content
+from urdftool.compare.tolerance import close, compute_angle, is_same
+from urdftool.model.elements import Origin
 from urdftool.model.load import load
 from urdftool.model.pose import rotation_from_rpy
+from urdftool.model.settings import Value
 from urdftool.report.compare import describe_what
 
 LINK = '<link name="a">{}</link><link name="b"/>'
@@ -217,3 +220,41 @@ def test_several_new_names_are_not_paired():
         "plugin[p]/j[2] added",
         "plugin[p]/j[3] added",
     }
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "same"),
+    [
+        (1.0, 1.0 + 1e-12, True),
+        (True, 1.0, True),
+        ("a", "b", False),
+        (None, 0.0, False),
+        ((1.0, 2.0), (1.0, 2.0 + 1e-12), True),
+        ((1.0, 2.0), (1.0, 2.0, 3.0), False),
+        (("x", "y"), ("x", "z"), False),
+        ({"p": (1.0,)}, {"p": (1.0 + 1e-12,)}, True),
+        ({"p": 1.0}, {"q": 1.0}, False),
+        (Value(None, 2.0), Value(None, 3.0), False),
+        (Origin(None, (1.0, 0.0, 0.0)), Origin(None, (1.0, 0.0, 1e-3)), False),
+        (None, Origin(None), True),
+    ],
+)
+def test_values_of_any_kind(a, b, same):
+    assert is_same(a, b, 1e-9) is same
+
+
+def test_lists_of_different_length_differ():
+    assert measure_content((1.0, 2.0), (1.0, 2.0, 3.0)) == math.inf
+    assert measure_content((1.0, 2.0), (1.0, 2.5)) == 0.5
+
+
+def test_a_value_that_is_gone_is_at_its_place_in_the_first_file():
+    a, b = of(joint='<limit effort="2"/>'), of(joint="<limit/>")
+    (difference,) = compare(a, b)
+    assert difference.values == (2.0, None)
+    assert [place.path for place in difference.places] == ["r.urdf", "r.urdf"]
+    assert difference.place == difference.places[1]
+    (gone,) = (d for d in compare(of(), robot('<robot name="r"><link name="a"/></robot>'))
+               if d.kind == "link")  # fmt: skip
+    assert (gone.what, gone.values[1], gone.places[1].path) == ("existence", None, "")
+    assert gone.place == gone.places[0]
