@@ -68,40 +68,31 @@ def _pick(root: Element, path: str, chance: random.Random) -> Element | None:
     return chance.choice(found) if found else None
 
 
-def _set(path: str, name: str, value: str) -> Plant:
-    """Plant an attribute in a random element of a path."""
+def _change(path: str, edit: Callable[[Element], object]) -> Plant:
+    """Plant a defect in a random element of a path."""
 
     def plant(root: Element, chance: random.Random) -> bool:
         found = _pick(root, path, chance)
         if found is not None:
-            found.set(name, value)
+            edit(found)
         return found is not None
 
     return plant
+
+
+def _set(path: str, name: str, value: str) -> Plant:
+    """Plant an attribute."""
+    return _change(path, lambda found: found.set(name, value))
 
 
 def _pad(path: str, name: str) -> Plant:
     """Plant a blank behind a name."""
-
-    def plant(root: Element, chance: random.Random) -> bool:
-        found = _pick(root, path, chance)
-        if found is not None:
-            found.set(name, f"{found.get(name, '')} ")
-        return found is not None
-
-    return plant
+    return _change(path, lambda found: found.set(name, f"{found.get(name, '')} "))
 
 
 def _add(path: str, text: str) -> Plant:
-    """Plant an element in a random element of a path."""
-
-    def plant(root: Element, chance: random.Random) -> bool:
-        found = _pick(root, path, chance)
-        if found is not None:
-            found.append(ElementTree.fromstring(text))
-        return found is not None
-
-    return plant
+    """Plant an element."""
+    return _change(path, lambda found: found.append(ElementTree.fromstring(text)))
 
 
 def _omit_axis(root: Element, chance: random.Random) -> bool:

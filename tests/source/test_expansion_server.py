@@ -7,10 +7,24 @@ import time
 
 import pytest
 
-from tests.source.test_expansion_process import ATTEMPTS, ENDLESS, XACRO, _has_landlock
-from tests.source.test_last_expansion import CHANGES, MAIN, expand_with, folder, list_facts
-from urdftool.errors import SourceError, XacroError
-from urdftool.source import expansion_server, limits, xacro_hooks
+from tests.source.test_expansion_process import (
+    ATTEMPTS,
+    ENDLESS,
+    XACRO,
+    _has_landlock,
+    path,
+    run_in_process,
+)
+from tests.source.test_last_expansion import (
+    CHANGES,
+    MAIN,
+    check_defect,
+    expand_with,
+    folder,
+    list_facts,
+)
+from urdftool.errors import XacroError
+from urdftool.source import expansion_server, limits
 from urdftool.source.document import read_file
 from urdftool.source.expand import expand_xacro
 from urdftool.source.expansion_server_child import serve_connection
@@ -18,7 +32,7 @@ from urdftool.source.packages import Packages
 from urdftool.workspace import Workspace
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the process is a fork on Linux")
-__all__ = ["folder"]
+__all__ = ["folder", "path"]
 
 
 class Fork:
@@ -56,13 +70,6 @@ def expand(path, workspace):
     )
 
 
-@pytest.fixture
-def path(tmp_path):
-    file = tmp_path / "a.xacro"
-    file.write_text(XACRO.format('\n<link name="${1 + 1}"/>'))
-    return file
-
-
 def test_an_expansion_is_as_without_the_server(folder, base):
     for changes in ({}, {"main.xacro": MAIN.replace("end", "last")}, *CHANGES.values()):
         found = []
@@ -75,29 +82,13 @@ def test_an_expansion_is_as_without_the_server(folder, base):
 
 @pytest.mark.parametrize("text", ["<robot>", "<robot xmlns:xacro='x'><a b='${1 +}'/></robot>"])
 def test_a_defect_is_reported_as_without_the_server(folder, base, text):
-    errors = []
-    expand_with(base, folder, {})
-    for workspace in (base, Workspace()):
-        with pytest.raises(SourceError) as error:
-            expand_with(workspace, folder, {"b.xacro": text})
-        errors.append((str(error.value), error.value.path, error.value.line, error.value.column))
-    assert errors[0] == errors[1]
-
-
-def run_in_process(monkeypatch, work):
-    """Replace the expansion by a function, whose result becomes a message of the description."""
-
-    def replacement(run):
-        run.files.add_message(str(work()))
-        return []
-
-    monkeypatch.setattr(xacro_hooks.Run, "expand", replacement)
+    check_defect(base, folder, text)
 
 
 def test_the_process_has_no_files_programs_network_or_environment(path, base, monkeypatch, capfd):
     needs_landlock = () if _has_landlock() else ("signal", "list", "remove")
 
-    def work():
+    def work(run):
         done = [name for name in ATTEMPTS if name not in needs_landlock and _succeeds(name)]
         return f"done: {done} {dict(os.environ)}"
 

@@ -116,7 +116,11 @@ def test_an_included_file_is_read_again_after_it_changed_on_the_disk(folder):
 
 @pytest.mark.parametrize("text", ["<robot>", B.replace("+ 1", "+")])
 def test_a_defect_of_an_included_file_is_reported_as_by_the_first(folder, text):
-    base = Workspace()
+    check_defect(Workspace(), folder, text)
+
+
+def check_defect(base, folder, text):
+    """Check that a defect of an included file is reported as by a first expansion."""
     errors = []
     expand_with(base, folder, {})
     for workspace in (base, Workspace()):
