@@ -25,9 +25,13 @@ def megabytes(path):
 
 def sizes():
     """The parts of this environment's packages, largest first; what it came with left out."""
-    places = [Path(sysconfig.get_path(name)) for name in ("purelib", "scripts")]
-    parts = [part for place in places for part in place.iterdir()]
-    found = {p.name: megabytes(p) for p in parts if not p.name.startswith(TOOLS)}
+    places = {"": "purelib", "bin/": "scripts", "share/": "data"}
+    found = {}
+    for prefix, name in places.items():
+        folder = Path(sysconfig.get_path(name)) / ("share" if name == "data" else "")
+        parts = sorted(folder.iterdir()) if folder.is_dir() else []
+        sizes = {prefix + p.name: megabytes(p) for p in parts if not p.name.startswith(TOOLS)}
+        found.update(sizes)  # a program has the name of its package
     return dict(sorted(found.items(), key=lambda item: -item[1]))
 
 

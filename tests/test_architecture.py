@@ -136,8 +136,8 @@ PLACES = {
     "yourdfpy": ("bundle/yourdfpy_reader.py",),
     "scipy": ("geometry/", "inertia/", "collision/", "bundle/surface_distance.py"),
     "manifold3d": ("geometry/hull.py", "simulation/solids.py"),
-    "click": ("cli.py", "console.py", "commands/", "report/findings.py"),
-    "rich": ("report/", "viewer/server.py"),
+    "click": ("cli.py", "console.py", "commands/", "report/"),
+    "rich": ("viewer/server.py",),
     "numpy": (
         *("mechanics/", "geometry/", "drawing/", "viewer/", "inertia/", "compare/", "formats/"),
         *("collision/", "simulation/", "srdf/", "bundle/mesh_formats.py", "bundle/collada_file.py"),

@@ -77,7 +77,7 @@ def test_the_core_is_what_is_imported_without_an_extra():
     assert core == {name.lower() for name in CORE} | {"tomli"}
     imports = {"pyyaml": "yaml"}
     known = {imports.get(name, name) for name in core} | set(extras.EXTRA_OF)
-    known |= {"websockets"}  # comes with viser
+    known |= {"rich", "websockets"}  # come with viser
     for path in (ROOT / "urdftool").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
             names = []

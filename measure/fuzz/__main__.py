@@ -22,7 +22,7 @@ from .commands import COMMANDS
 from .robots import candidates
 from .table import table, write
 
-LIBRARIES = ("numpy", "scipy.spatial", "trimesh", "lxml.etree", "rich.table", "xacro")
+LIBRARIES = ("numpy", "scipy.spatial", "trimesh", "lxml.etree", "xacro")
 LIBRARIES += ("coacd", "mujoco", "PIL.Image")
 MODULES = ("expand", "lint", "inertia_robot", "graph", "info", "diff", "export_sdf")
 MODULES += ("export_mjcf", "collision_robot", "simulate_one", "view_picture")

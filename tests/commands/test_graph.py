@@ -58,7 +58,14 @@ def test_a_tree_at_the_terminal(urdftool, write):
 
 def test_a_tree_has_colours_where_they_are_wanted(urdftool, write):
     result = urdftool("--color", "always", "graph", write("x.urdf", SOUND), "-o", "-")
-    assert "\x1b[" in result.out
+    assert result.out.splitlines() == [
+        "\x1b[1msound\x1b[0m",
+        "\x1b[1ma\x1b[0m\x1b[2m  frame\x1b[0m",
+        "\x1b[2m└── \x1b[0m\x1b[36mab\x1b[0m\x1b[2m  fixed\x1b[0m\x1b[2m → \x1b[0m\x1b[1mb\x1b[0m"
+        "\x1b[2m  frame\x1b[0m",
+        "\x1b[2m    └── \x1b[0m\x1b[36mbc\x1b[0m\x1b[2m  fixed\x1b[0m\x1b[2m → \x1b[0m\x1b[1mc"
+        "\x1b[0m\x1b[2m  frame\x1b[0m",
+    ]
 
 
 def test_nothing_in_a_name_is_markup_at_the_terminal(urdftool, write):
@@ -66,6 +73,17 @@ def test_nothing_in_a_name_is_markup_at_the_terminal(urdftool, write):
         "graph", write("x.urdf", tree_text(["[bold]a[/] :smile:\x85"], [])), "-o", "-"
     )
     assert "[bold]a[/] :smile:\\x85" in result.out
+
+
+def test_branches_next_to_each_other_have_guides(urdftool, write):
+    joints = [("ab", "a", "b"), ("bc", "b", "c"), ("ad", "a", "d")]
+    result = urdftool("graph", write("x.urdf", tree_text("abcd", joints)), "-o", "-")
+    assert result.out.splitlines()[1:] == [
+        "a  frame",
+        "├── ab  fixed → b  frame",
+        "│   └── bc  fixed → c  frame",
+        "└── ad  fixed → d  frame",
+    ]
 
 
 def test_a_deep_tree_goes_on_below(urdftool, write):

@@ -232,7 +232,7 @@ print("LOADED", *(n for n in ("trimesh", "scipy", "numpy", "rich", "lxml")
         (["inertia", "robot", "--help"], []),
         (["inertia", "sphere", "--mass", "1", "--radius", "1"], []),
         (["inertia", "macros"], []),
-        (["inertia", "robot", str(FIXTURES / "robots" / "ten_links.urdf")], ["numpy", "rich"]),
+        (["inertia", "robot", str(FIXTURES / "robots" / "ten_links.urdf")], ["numpy"]),
     ],
 )
 def test_light_forms_stay_light(words, loaded):

@@ -70,14 +70,9 @@ def write_one(
 ) -> None:
     """Write one file of the format of its suffix, or print a tree for ``-``."""
     if suffix == "-":
-        import shutil
-
         from ..report.graph_tree import format_tree_text
 
-        width = shutil.get_terminal_size().columns
-        write_result(
-            format_tree_text(model, figure, colors=console.has_colors(), width=width), None
-        )
+        write_result(format_tree_text(model, figure, colors=console.has_colors()), None)
         return
     folder = os.path.dirname(output) or "."
     if suffix == ".json":

@@ -7,7 +7,7 @@ import click
 from .. import __version__
 from ..console import Console
 
-CORE = ("click", "lxml", "numpy", "PyYAML", "rich", "trimesh", "xacro")
+CORE = ("click", "lxml", "numpy", "PyYAML", "trimesh", "xacro")
 
 
 def print_version(console: Console) -> None:

@@ -1,37 +1,23 @@
-"""Alignment of text tables, by rich; the only module that formats columns."""
+"""Alignment of text tables; the only module that formats columns."""
 
 from __future__ import annotations
 
-import io
+import unicodedata
 from collections.abc import Collection, Sequence
 
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
+import click
 
 from ..control_characters import escape_controls
 
 Cell = str | tuple[str, str | None]
 """A text, or a text and its color."""
 
-WIDEST = 100_000
-"""Columns of a console that does not wrap lines. Chosen, no source."""
-
-
-def create_text_console(stream: io.StringIO, *, colors: bool, width: int = WIDEST) -> Console:
-    """Create a rich console that writes plain text, or text with the 8 terminal colors."""
-    return Console(
-        file=stream,
-        force_terminal=colors,
-        color_system="standard" if colors else None,
-        width=width,
-        highlight=False,
-        emoji=False,
-        markup=False,
-        legacy_windows=False,
-        no_color=not colors,
-        _environ={},
-    )
+_GAP = "  "
+"""Blanks between two columns."""
+_WIDE = ("W", "F")
+"""Widths of characters that take two columns of a terminal; source: Unicode Annex 11."""
+_WITHOUT_WIDTH = ("Mn", "Me", "Cf")
+"""Categories of characters that take no column: marks on others, and formats."""
 
 
 def render_table(
@@ -51,20 +37,42 @@ def render_table(
     """
     if not rows:
         return ""
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
-    for column in range(len(rows[0])):
-        table.add_column(justify="left" if column in left else "right", no_wrap=True)
-    texts = [[_make_text(cell) for cell in row] for row in rows]
+    cells = [[_read_cell(cell) for cell in row] for row in rows]
+    columns = zip(*cells, strict=True)
+    widths = [max(measure_width(text) for text, _ in column) for column in columns]
     if rule:
-        widths = [max(text.cell_len for text in column) for column in zip(*texts, strict=True)]
-        texts.insert(1, [Text("-" * width) for width in widths])
-    for line in texts:
-        table.add_row(*line)
-    stream = io.StringIO()
-    create_text_console(stream, colors=colors).print(table)
-    return "".join(f"{line.rstrip()}\n" for line in stream.getvalue().split("\n")[:-1])
+        cells.insert(1, [("-" * width, None) for width in widths])
+    sides = [column in left for column in range(len(widths))]
+    lines = (
+        _GAP.join(
+            _align(text, width, is_left, color if colors else None)
+            for (text, color), width, is_left in zip(row, widths, sides, strict=True)
+        )
+        for row in cells
+    )
+    return "".join(f"{line.rstrip()}\n" for line in lines)
 
 
-def _make_text(cell: Cell) -> Text:
+def measure_width(text: str) -> int:
+    """Return the number of columns that a text takes at a terminal."""
+    if text.isascii():
+        return len(text)
+    return sum(_measure_character(character) for character in text)
+
+
+def _measure_character(character: str) -> int:
+    if unicodedata.category(character) in _WITHOUT_WIDTH:
+        return 0
+    return 2 if unicodedata.east_asian_width(character) in _WIDE else 1
+
+
+def _read_cell(cell: Cell) -> tuple[str, str | None]:
     text, color = cell if isinstance(cell, tuple) else (cell, None)
-    return Text(escape_controls(text), style=color or "")
+    return escape_controls(text), color
+
+
+def _align(text: str, width: int, is_left: bool, color: str | None) -> str:
+    """Return a text with blanks at one side, and in a color if it is not empty."""
+    blanks = " " * (width - measure_width(text))
+    shown = click.style(text, fg=color) if color and text else text
+    return shown + blanks if is_left else blanks + shown
