@@ -167,3 +167,13 @@ def report_limits(library: str, what: str, place: Place) -> Iterator[None]:
     except ProcessDied as error:
         text = f"{library} crashes on the {what}"
         raise ModelError(text, at=place, notes=error.output) from None
+
+
+def take_name(name: str, taken: set[str]) -> str:
+    """Return a name, with a number if it is taken, and take it."""
+    found, count = name, 1
+    while found in taken:
+        count += 1
+        found = f"{name}_{count}"
+    taken.add(found)
+    return found

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from ... import __version__
 from ...errors import OutputError
@@ -46,6 +48,27 @@ def mark_usda(text: bytes, source: str) -> bytes:
     """
     head, _, rest = text.partition(b"\n")
     return head + f"\n# {_format_sentence(rest, source)}\n".encode() + rest
+
+
+@contextmanager
+def place_export(
+    written: Written, output: str | Path | None, name: str, *, single: bool
+) -> Iterator[Path]:
+    """Provide the path of an export on disk during a ``with`` block.
+
+    Args:
+        written: The export.
+        output: Path of the written file or folder; None writes a temporary copy.
+        name: Name of the copy.
+        single: Whether it is a file with its companions.
+    """
+    if output is not None:
+        yield Path(output)
+        return
+    with TemporaryDirectory(prefix="urdftool-") as folder:
+        copy = Path(folder) / name
+        write_export(copy, written, single=single)
+        yield copy
 
 
 def _format_sentence(rest: bytes, source: str) -> str:

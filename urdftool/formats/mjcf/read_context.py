@@ -10,7 +10,7 @@ from ...model.provenance import Written
 from ...model.settings import Setting, Settings, Value
 from ...model.world import WORLD
 from ...source.document import Element
-from ..reading import Losses
+from ..reading import Losses, take_name
 from .read_compile import Compiled, Row
 from .read_text import Expanded
 
@@ -74,16 +74,6 @@ def read_settings(row: Row, settings: Iterable[Setting], written: Written) -> Se
     return found
 
 
-def make_unique(wanted: str, taken: set[str]) -> str:
-    """Return a name that is not taken, and take it."""
-    name, count = wanted, 1
-    while name in taken:
-        count += 1
-        name = f"{wanted}_{count}"
-    taken.add(name)
-    return name
-
-
 def name_bodies(context: Context, world: bool) -> None:
     """Name the link of each body; unnamed bodies are named for their parent.
 
@@ -99,7 +89,7 @@ def name_bodies(context: Context, world: bool) -> None:
         parent = row["parentid"]
         counts[parent] = number = counts.get(parent, 0) + 1
         invented = f"{context.links[parent] or WORLD}_body{number}"
-        context.links.append(row["name"] or make_unique(invented, taken))
+        context.links.append(row["name"] or take_name(invented, taken))
 
 
 def name_joints(context: Context) -> set[str]:
@@ -108,5 +98,5 @@ def name_joints(context: Context) -> set[str]:
     taken = {row["name"] for row in rows if row["name"]}
     for row in rows:
         invented = f"{context.links[row['bodyid']]}_joint"
-        context.joints.append(row["name"] or make_unique(invented, taken))
+        context.joints.append(row["name"] or take_name(invented, taken))
     return taken

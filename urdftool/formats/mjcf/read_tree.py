@@ -30,10 +30,10 @@ from ...model.pose import IDENTITY, Pose, get_origin_at
 from ...model.provenance import Written
 from ...model.settings import JOINTS_OF_MUJOCO, LINKS_OF_MUJOCO, Settings, Value
 from ...model.world import WORLD
+from ..reading import take_name
 from .read_compile import Row
 from .read_context import (
     Context,
-    make_unique,
     name_bodies,
     name_joints,
     read_pose,
@@ -141,7 +141,7 @@ def _read_joints(
     at = context.shifts[body["parentid"]] @ read_pose(body)
     if not own:
         written = context.get_place(body)
-        fixed = make_unique(f"{name}_fixed", taken)
+        fixed = take_name(f"{name}_fixed", taken)
         origin = get_origin_at(at @ context.shifts[index].invert(), written)
         yield Joint(written, fixed, "fixed", parent, name, origin=origin)
         return
@@ -149,7 +149,7 @@ def _read_joints(
     links = set(context.links)
     for count, number in enumerate(own, 1):
         row = context.list_rows("joint")[number]
-        child = name if count == len(own) else make_unique(f"{name}~{count}", links)
+        child = name if count == len(own) else take_name(f"{name}~{count}", links)
         anchor = _anchor(row)
         step = Pose(translation=tuple(a - b for a, b in zip(anchor, before, strict=True)))  # type: ignore[arg-type]
         joint = _read_joint(context, row, number, parent, child)

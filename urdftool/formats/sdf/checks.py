@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from ...compare.check import Check
 from ...model.elements import Robot
-from ..common.directory import write_export
+from ..common.directory import place_export
 from ..written import Written
 from .options import Options
 
@@ -39,9 +38,6 @@ def check_output(
     """
     from .verify.compare import verify
 
-    if output is not None:
-        return verify(robot, written, options, output)
-    with TemporaryDirectory(prefix="urdftool-") as folder:
-        copy = Path(folder) / (options.file or options.folder)
-        write_export(copy, written, single=bool(options.file))
-        return verify(robot, written, options, copy)
+    name = options.file or options.folder
+    with place_export(written, output, name, single=bool(options.file)) as path:
+        return verify(robot, written, options, path)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from ...compare.check import Check
 from ...compare.proof import Claims, Excuse, prove
 from ...compare.rows import EQUIPMENT_ROWS, ROWS
 from ...model.elements import Robot
-from ..common.directory import write_export
+from ..common.directory import place_export
 from ..common.losses import DeclaredLosses
 from ..written import Written
 from .options import Options
@@ -59,13 +58,9 @@ def check_output(
         written: The export.
         output: Path of the written file or folder; None writes a temporary copy.
     """
-    if output is not None:
-        path = Path(output) if options.file else Path(output) / written.main
-        return _compare(robot, written, path)
-    with TemporaryDirectory(prefix="urdftool-") as folder:
-        copy = Path(folder) / (options.file or "robot")
-        write_export(copy, written, single=bool(options.file))
-        return _compare(robot, written, copy if options.file else copy / written.main)
+    name = options.file or "robot"
+    with place_export(written, output, name, single=bool(options.file)) as path:
+        return _compare(robot, written, path if options.file else path / written.main)
 
 
 def _drop_rotors(robot: Robot, written: Written) -> Robot:

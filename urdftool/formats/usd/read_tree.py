@@ -21,6 +21,7 @@ from ...model.pose import (
     rotation_from_quaternion,
 )
 from ...model.world import WORLD
+from ..reading import take_name
 from .read_joints import JointKind, add_motion, find_kind, read_actuator
 from .read_links import read_inertial
 from .read_pairs import add_pairs
@@ -90,7 +91,7 @@ def add_tree(context: Context, robot: Robot) -> None:
         and edge.prim.GetCustomDataByKey("urdf:parent") not in stands
         for edge in tree
     ):
-        robot.links.append(Link(context.get_written(context.top), _take_name(WORLD, set())))
+        robot.links.append(Link(context.get_written(context.top), take_name(WORLD, set())))
         context.names[""] = robot.links[0].name
     for path, prim in context.bodies.items():
         link = Link(context.get_written(prim), context.names[path])
@@ -128,7 +129,7 @@ def _name_links(context: Context) -> None:
     for path in paths:
         prim = context.stage.GetPrimAtPath(path)
         stored = prim.GetCustomDataByKey("urdf:link") or prim.GetDisplayName()
-        context.names[path] = _take_name(str(stored or prim.GetName()), taken)
+        context.names[path] = take_name(str(stored or prim.GetName()), taken)
 
 
 def _find_frames(context: Context) -> dict[str, tuple[str, Pose]]:
@@ -253,7 +254,7 @@ def _make_joint(
     context: Context, edge: _Edge, frames: dict[str, tuple[str, Pose]], taken: set[str]
 ) -> Joint:
     prim, written = edge.prim, context.get_written(edge.prim)
-    joint = Joint(written, _take_name(_get_joint_name(prim), taken), edge.kind.type)
+    joint = Joint(written, take_name(_get_joint_name(prim), taken), edge.kind.type)
     parent, at = edge.first, context.shifts[edge.first]
     parent_name = prim.GetCustomDataByKey("urdf:parent")
     for path, (body, pose) in frames.items():
@@ -326,7 +327,7 @@ def _join_frames(
             continue
         written = context.get_written(prim)
         name = str(prim.GetCustomDataByKey("urdf:fixed_joint") or f"{context.names[path]}_joint")
-        joint = Joint(written, _take_name(name, taken), "fixed")
+        joint = Joint(written, take_name(name, taken), "fixed")
         joint.parent, joint.child = context.names[parent], context.names[path]
         joint.origin = get_origin_at(poses[parent][1].invert() @ pose, written)
         robot.joints.append(joint)
@@ -350,7 +351,7 @@ def _join_free_bodies(
         stored = str(prim.GetCustomDataByKey("urdf:floating_joint") or f"{name}_floating")
         parent = str(prim.GetCustomDataByKey("urdf:parent") or "")
         start = known.get(parent, root)
-        joint = Joint(written, _take_name(stored, taken), "floating")
+        joint = Joint(written, take_name(stored, taken), "floating")
         joint.parent, joint.child = context.names[start], name
         at = context.get_pose(context.stage.GetPrimAtPath(start)) @ context.shifts.get(
             start, IDENTITY
@@ -377,7 +378,7 @@ def _join_anchored(
         text = "bodies that are fixed to the world are fixed to the base"
         context.report_loss("anchor", text, edge.prim, Severity.INFO)
         written = context.get_written(edge.prim)
-        joint = Joint(written, _take_name(_get_joint_name(edge.prim), taken), "fixed")
+        joint = Joint(written, take_name(_get_joint_name(edge.prim), taken), "fixed")
         joint.parent, joint.child = context.names[root], context.names[edge.second]
         joint.origin = get_origin_at(poses[root].invert() @ poses[edge.second], written)
         robot.joints.append(joint)
@@ -446,13 +447,3 @@ def _make_closure(context: Context, edge: _Edge) -> Closure:
     if closure.type not in ("weld", "connect"):
         closure.axis = edge.kind.axis
     return closure
-
-
-def _take_name(name: str, taken: set[str]) -> str:
-    """Return a name that is not taken, and take it."""
-    found, count = name, 1
-    while found in taken:
-        count += 1
-        found = f"{name}_{count}"
-    taken.add(found)
-    return found
