@@ -238,10 +238,12 @@ def _check_paths(
         raise click.UsageError("missing argument PATH: a file or folder, or '-' for standard input")
     other = find_other_descriptions(paths)
     folders = [path for path in paths if os.path.isdir(path)]
-    workspace = Workspace().with_record()
-    for path in paths:
-        workspace.is_file(path)
-        workspace.resolve_links(path)
+    workspace = Workspace()
+    if transcript is not None:
+        workspace = workspace.with_record()
+        for path in paths:
+            workspace.is_file(path)
+            workspace.resolve_links(path)
     options = Options(Settings(), arguments, package, package_path, config=console.config)
     options.workspace = workspace
     found = find_repository(paths, options)
