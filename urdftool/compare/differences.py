@@ -14,7 +14,7 @@ from ..model.pose import compute_norm, make_restored_pose
 from .difference import EXISTENCE, RENAMED, Difference, describe_change
 from .extensions import compare_extensions
 from .joints import list_values
-from .links import compare_links, describe_pose
+from .links import collect_pose_values, compare_links
 from .mechanisms import compare_mechanisms
 from .native import are_of_one_format, compare_native
 from .settings import compare_written_settings
@@ -171,7 +171,10 @@ def compare_joints(
             yield describe_change("tree", "joint", b.name, what, (before, after), (a, b))
     one, two = make_restored_pose(a.origin), make_restored_pose(b.origin)
     if not is_same_pose(one, two, tolerance):
-        values, sides = (describe_pose(one), describe_pose(two)), (a.origin or a, b.origin or b)
+        values, sides = (
+            (collect_pose_values(one), collect_pose_values(two)),
+            (a.origin or a, b.origin or b),
+        )
         note = format_motion(one, two)
         yield describe_change("frames", "joint", b.name, "origin", values, sides, note=note)
     if a.has_axis and b.has_axis:

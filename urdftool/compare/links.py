@@ -137,7 +137,7 @@ def _compare_shape(
         yield describe_change(row, "link", name, f"{kind}{number} geometry", shapes, sides)
     one, two = make_restored_pose(a.origin), make_restored_pose(b.origin)
     if not is_same_pose(one, two, tolerance):
-        poses, note = (describe_pose(one), describe_pose(two)), format_motion(one, two)
+        poses, note = (collect_pose_values(one), collect_pose_values(two)), format_motion(one, two)
         what = f"{kind}{number} origin"
         yield describe_change(row, "link", name, what, poses, sides, note=note)
     if isinstance(a, Visual) and isinstance(b, Visual):
@@ -146,7 +146,7 @@ def _compare_shape(
             yield describe_change("colors", "link", name, f"{kind}{number} material", looks, sides)
 
 
-def describe_pose(pose: Pose) -> dict[str, Any]:
+def collect_pose_values(pose: Pose) -> dict[str, Any]:
     """Return a pose as data: ``xyz`` [m] and ``rpy`` [rad]."""
     return {"xyz": pose.translation, "rpy": rpy_from_rotation(pose.rotation)}
 

@@ -11,7 +11,7 @@ from ..model.part import Origin, Part
 from ..model.pose import make_pose
 from ..model.settings import Value
 from .difference import RENAMED, Difference, describe_change, describe_presence
-from .links import describe_pose
+from .links import collect_pose_values
 from .rows import LOOPS
 from .tolerance import is_same
 
@@ -129,7 +129,7 @@ def _name_by_references(values: Mapping[str, Any], number: int) -> str:
 def _convert_to_data(value: Any) -> Any:
     """Return a value as data."""
     if isinstance(value, Origin):
-        return describe_pose(make_pose(value))
+        return collect_pose_values(make_pose(value))
     if isinstance(value, dict):
         return {key: _convert_to_data(one) for key, one in value.items()}
     return value.content if isinstance(value, Value) else value

@@ -5,15 +5,15 @@ A format is a folder of this package and an entry in ``FORMATS``. The folder has
 - ``read.py`` with ``read(path, **options) -> Reading``, if the format can be read;
 - ``write.py`` with ``write(robot, options) -> Written`` and ``options.py`` with ``Options``, if it
   can be written;
-- ``checks.py`` with ``NOT_COMPARED``, ``check_unwritten`` and ``check_output``, which compare an
-  export with its source.
+- ``checks.py`` with ``NOT_COMPARED``, and ``check_unwritten``, which compares a copy of an export
+  with its source, or ``check_output``, which compares what is on disk.
 
 The modules are imported on first use.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -106,10 +106,8 @@ class Format:
         Raises:
             OutputError: A reader of the format rejects it.
         """
-        checks: list[Check] = self._make_module("checks").check_unwritten(
-            robot, options, written, verify=verify
-        )
-        return checks
+        check = self._find_check("check_unwritten")
+        return [] if check is None else check(robot, options, written, verify=verify)
 
     def check_output(
         self,
@@ -119,10 +117,12 @@ class Format:
         output: str | Path | None,
     ) -> list[Check]:
         """Compare an export on disk with its source; use a temporary copy if the output is None."""
-        checks: list[Check] = self._make_module("checks").check_output(
-            robot, options, written, output
-        )
-        return checks
+        check = self._find_check("check_output")
+        return [] if check is None else check(robot, options, written, output)
+
+    def _find_check(self, name: str) -> Callable[..., list[Check]] | None:
+        """Return a check of the format; None if it does not have that."""
+        return getattr(self._make_module("checks"), name, None)
 
     def _make_module(self, name: str) -> Any:
         return import_module(f".{self.name}.{name}", __package__)

@@ -190,7 +190,7 @@ def has_fixed_base(robot: Robot, root: Link) -> bool:
 def _is_world(link: Link) -> bool:
     """Tell whether a root is the world, so that the robot has a fixed base, as in the exports.
 
-    Gazebo attaches the children of a root link ``world`` to its world, whatever mass it has.
+    Gazebo attaches the children of a root link ``world`` to its world, also one with mass.
     """
     return link.name == ROOTED
 

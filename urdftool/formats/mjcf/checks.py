@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from ...compare.check import Check
 from ...model.elements import Robot
 from ..written import Written
@@ -40,11 +38,4 @@ def check_unwritten(
     from .compiled import compile_copy
 
     compile_copy(written)
-    return []
-
-
-def check_output(
-    robot: Robot, options: Options, written: Written, output: str | Path | None
-) -> list[Check]:
-    """Return no checks: ``check_unwritten`` compares a copy already."""
     return []

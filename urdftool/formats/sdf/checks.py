@@ -18,13 +18,6 @@ NOT_COMPARED = (
 """Parts of an export that the verification does not compare."""
 
 
-def check_unwritten(
-    robot: Robot, options: Options, written: Written, *, verify: bool
-) -> list[Check]:
-    """Return no checks: Gazebo's reader needs the files on disk."""
-    return []
-
-
 def check_output(
     robot: Robot, options: Options, written: Written, output: str | Path | None
 ) -> list[Check]:

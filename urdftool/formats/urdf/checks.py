@@ -40,13 +40,6 @@ _EXTENSIONS = {
 """Rows of extensions by the format of the source."""
 
 
-def check_unwritten(
-    robot: Robot, options: Options, written: Written, *, verify: bool
-) -> list[Check]:
-    """Return no checks: the meshes are compared on disk."""
-    return []
-
-
 def check_output(
     robot: Robot, options: Options, written: Written, output: str | Path | None
 ) -> list[Check]:

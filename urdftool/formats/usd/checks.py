@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from ...compare.check import Check
 from ...model.elements import Robot
 from ..written import Written
@@ -36,10 +34,3 @@ def check_unwritten(
     from .verify import verify_copy
 
     return verify_copy(robot, written, timestep=options.timestep)
-
-
-def check_output(
-    robot: Robot, options: Options, written: Written, output: str | Path | None
-) -> list[Check]:
-    """Return no checks: ``check_unwritten`` compares a copy already."""
-    return []
