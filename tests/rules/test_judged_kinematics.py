@@ -201,3 +201,22 @@ def test_a_robot_of_drake_without_collisions_is_only_for_motion(tmp_path, parent
     ]
     found = find(tmp_path, "missing-collision", *parts)
     assert bool(found) is bool(count)
+
+
+@pytest.mark.parametrize(("pieces", "count"), [(1, 1), (2, 1), (3, 0)])
+def test_several_primitives_may_be_larger_than_the_visual(tmp_path, pieces, count):
+    visual = '<visual><geometry><box size="0.2 0.2 0.2"/></geometry></visual>'
+    parts = LINK.format("a", visual + BOX.format(0, 1, 0.2, 0.2) * pieces)
+    assert len(find(tmp_path, "collision-much-larger-than-visual", parts)) == count
+
+
+@pytest.mark.parametrize(("kind", "severity"), [("fixed", "info"), ("continuous", "warning")])
+def test_a_part_of_the_surroundings_without_collision_is_an_info(tmp_path, kind, severity):
+    visual = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
+    parts = [
+        *(LINK.format("world", ""), LINK.format("stand", visual), LINK.format("arm", visual)),
+        JOINT.format("one", kind, "world", "stand", "0 0 1", ""),
+        JOINT.format("two", "continuous", "stand", "arm", "0 0 1", '<origin xyz="5 0 0"/>'),
+    ]
+    found = find(tmp_path, "missing-collision", *parts, targets=["gz"])
+    assert [one.severity.label for one in found if "'stand'" in one.message] == [severity]

@@ -50,6 +50,7 @@ _MARKER = 0.1
         "mujoco": "creates no geom for the link, because it discards the visuals of a URDF",
     },
     group="robot",
+    of_motion=True,
     formats=URDF_AND_SDF,
 )
 def missing_collision(

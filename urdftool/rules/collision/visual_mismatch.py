@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.bounds import Bounds, compute_size
-from ...model.elements import Collision, Cylinder, Link, Robot, Sphere, Visual
+from ...model.elements import Collision, Cylinder, Link, Mesh, Robot, Sphere, Visual
 from ...model.gltf_axes import is_gltf
 from ...source.description import Description
 from ..fix import FixContext, Proposal, depends_on_arguments, unsafe
@@ -188,8 +188,9 @@ def collision_much_larger_than_visual(
     Often a unit is wrong, or a diameter was written as the radius. The robot then makes contact at
     a distance. It is reported if the bounding box of the collisions is more than ``ratio`` times as
     long as that of the visuals, and by more than ``least`` [m]; visuals of links that are fixed to
-    this one count too. Ignored are the disc that the blades of a rotor sweep, and a sphere with
-    the radius of a wheel, which makes contact with the ground in one point on purpose.
+    this one count too. Ignored are the disc that the blades of a rotor sweep, a sphere with the
+    radius of a wheel, which makes contact with the ground in one point on purpose, and three or
+    more primitives, which somebody composed, such as a capsule for coarse checks.
     """
     reach = get_extents(robot)
     for link in robot.links:
@@ -211,6 +212,8 @@ def collision_much_larger_than_visual(
         a, b = collision_box.size[axis], around.size[axis]
         if _is_swept(robot, link, collision_box, around) or _is_ball_of_wheel(link, around):
             continue
+        if _is_composed(link):
+            continue
         yield Problem(
             link,
             f"collision of link '{link.name}' spans {a:.3g} m along {'xyz'[axis]}, but its visual "
@@ -223,6 +226,16 @@ def collision_much_larger_than_visual(
             at=link.collisions[0].geometry or link.collisions[0],
             data={"collision": a, "visual": b, "axis": "xyz"[axis]},
         )
+
+
+_COMPOSED = 3
+"""Number of primitives that somebody composed to be larger than the visual. Chosen, no source."""
+
+
+def _is_composed(link: Link) -> bool:
+    """Tell whether the collisions of a link are several primitives."""
+    shapes = [collision.geometry for collision in link.collisions]
+    return len(shapes) >= _COMPOSED and not any(isinstance(shape, Mesh) for shape in shapes)
 
 
 def _find_longer_axis(
