@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from statistics import median
 
-from ...model.attached import find_attached_links
+from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.bounds import Bounds, compute_size, has_extent
 from ...model.elements import (
     Box,
@@ -50,7 +50,6 @@ _MARKER = 0.1
         "mujoco": "creates no geom for the link, because it discards the visuals of a URDF",
     },
     group="robot",
-    of_motion=True,
     formats=URDF_AND_SDF,
 )
 def missing_collision(
@@ -70,7 +69,8 @@ def missing_collision(
     as in robots of few collision shapes, links smaller than ``small`` [m], and those inside the
     bounding box of their rigid body's collisions. Links of at most ``smallest`` [m], which mark
     frames, links named virtual or dummy, and those with fully transparent visuals are skipped, and
-    so is a single link without mass, such as the marker of a goal. Neither is a robot without any
+    so is a single link without mass, such as the marker of a goal. A link that is fixed to the
+    world cannot fall, and is an info. Neither is a robot without any
     collision that only Drake or MuJoCo reads, such as a pendulum of which the motion is computed.
     """
     if len(robot.links) == 1 and not robot.links[0].mass:
@@ -98,6 +98,7 @@ def missing_collision(
             link,
             f"link '{link.name}' has a visual but no collision; "
             "add a <collision>, best with a primitive shape",
+            severity=INFO if is_fixed_to_world(robot, link) else None,
             effects=[_LOAD, "moveit", *["mujoco"] * discarded],
             group="{count} links have a visual but no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
