@@ -190,7 +190,7 @@ def collision_much_larger_than_visual(
     long as that of the visuals, and by more than ``least`` [m]; visuals of links that are fixed to
     this one count too. Ignored are the disc that the blades of a rotor sweep, a sphere with the
     radius of a wheel, which makes contact with the ground in one point on purpose, and three or
-    more primitives, which somebody composed, such as a capsule for coarse checks.
+    more primitives, composed on purpose, such as a capsule for coarse checks.
     """
     reach = get_extents(robot)
     for link in robot.links:
@@ -229,7 +229,7 @@ def collision_much_larger_than_visual(
 
 
 _COMPOSED = 3
-"""Number of primitives that somebody composed to be larger than the visual. Chosen, no source."""
+"""Number of primitives that are composed to be larger than the visual. Chosen, no source."""
 
 
 def _is_composed(link: Link) -> bool:
