@@ -226,6 +226,8 @@ def list_logical_lines(path: Path) -> Iterator[tuple[int, str]]:
 
 def _add_fan(rest: str, points: int, corners: list[int], path: Path, number: int) -> int:
     """Add the triangles of one ``f`` statement to ``corners``; return their number."""
+    if _add_plain_triangle(rest, corners):
+        return 1
     polygon = []
     for word in rest.split():
         try:
@@ -246,6 +248,20 @@ def _add_fan(rest: str, points: int, corners: list[int], path: Path, number: int
     for second in range(1, len(polygon) - 1):
         corners += (polygon[0], polygon[second], polygon[second + 1])
     return max(len(polygon) - 2, 0)
+
+
+def _add_plain_triangle(rest: str, corners: list[int]) -> bool:
+    """Add one triangle of positive indices, the usual face, and tell whether it is one."""
+    try:
+        one, two, three = [int(word.partition("/")[0]) for word in rest.split()]
+    except ValueError:
+        return False
+    if not (0 < one <= _MOST and 0 < two <= _MOST and 0 < three <= _MOST):
+        return False
+    if rest.startswith("0") or " 0" in rest:
+        return False
+    corners += (one - 1, two - 1, three - 1)
+    return True
 
 
 def _add_texture_fan(rest: str, texels: int, run: Run) -> None:

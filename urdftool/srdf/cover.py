@@ -106,6 +106,7 @@ def _bound_hull(points: Points, hull: Any, inflation: float) -> Piece:
     extent = float(np.ptp(points, axis=0).max())
     if len(points) * len(faces) > _MEASURED:
         return Piece(corners, faces, inflation + 1e-6 * extent)
+    points = _drop_repeated(points)
     a, b, c = corners[faces].swapaxes(0, 1)
     normals = np.cross(b - a, c - a)
     length = np.linalg.norm(normals, axis=1)
@@ -115,6 +116,13 @@ def _bound_hull(points: Points, hull: Any, inflation: float) -> Piece:
     outside = points @ normals.T > (normals * a[valid]).sum(axis=1) + tolerance
     lost = _bound_distance(points[outside.any(axis=1)], corners)
     return Piece(corners, faces, inflation + lost + 100 * tolerance)
+
+
+def _drop_repeated(points: Points) -> Points:
+    """Keep one of points with the same bytes: corners of triangles are six times as many."""
+    rows = np.ascontiguousarray(points).view(np.dtype((np.void, points.itemsize * 3)))
+    kept: Points = points[np.unique(rows.reshape(-1), return_index=True)[1]]
+    return kept
 
 
 def _bound_distance(points: Points, hull: Points) -> float:

@@ -95,11 +95,11 @@ def read_shapes(
     solids: list[Solid] = []
     for shape in shapes:
         try:
-            solid, corners = _read_shape(robot, shape)
+            solid = _read_shape(robot, shape)
         except UrdftoolError as error:
             return LinkShape(link, (), (), str(error))
         solids.append(solid)
-        found += _cover(solid, corners, max(2, pieces // len(shapes)))
+        found += _cover(solid, max(2, pieces // len(shapes)))
     return LinkShape(link, tuple(found), tuple(solids))
 
 
@@ -109,11 +109,16 @@ def read_solids(robot: Robot, link: str) -> list[Solid]:
     Raises:
         UrdftoolError: A mesh cannot be read, or a shape is not bounded.
     """
-    return [_read_shape(robot, shape)[0] for shape in robot.link[link].collisions]
+    return [_read_shape(robot, shape) for shape in robot.link[link].collisions]
 
 
-def _read_shape(robot: Robot, shape: Collision | Visual) -> tuple[Solid, Points]:
-    """Return a shape, and the triangles or points [m] of its own frame that contain it."""
+def _read_shape(robot: Robot, shape: Collision | Visual) -> Solid:
+    """Return a shape in the frame of its link; it is read once for a robot."""
+    # the shape is kept with its solid, so that no other shape gets its id
+    return robot.memo.get((_read_shape, id(shape)), lambda: (shape, _make_solid(robot, shape)))[1]
+
+
+def _make_solid(robot: Robot, shape: Collision | Visual) -> Solid:
     pose = make_pose(shape.origin)
     rotation, translation = np.array(pose.rotation, float), np.array(pose.translation, float)
     geometry = shape.geometry
@@ -122,12 +127,11 @@ def _read_shape(robot: Robot, shape: Collision | Visual) -> tuple[Solid, Points]
             raise MeshError("the robot was not read from a file, so its meshes are unknown")
         mesh = load_named(robot.source, geometry.filename, geometry.scale)
         vertices = mesh.vertices @ rotation.T + translation
-        solid = Solid("mesh", (), np.eye(3), np.zeros(3), vertices, mesh.faces)
-        return solid, vertices[mesh.faces]
+        return Solid("mesh", (), np.eye(3), np.zeros(3), vertices, mesh.faces)
     kind, size = describe_primitive(geometry)
     if not all(math.isfinite(value) and value > 0 for value in size):
         raise MeshError(f"the size of the {kind} is not given, or not above 0")
-    return Solid(kind, size, rotation, translation), np.zeros((0, 3))
+    return Solid(kind, size, rotation, translation)
 
 
 def describe_primitive(geometry: Geometry | None) -> tuple[str, tuple[float, ...]]:
@@ -147,9 +151,10 @@ def describe_primitive(geometry: Geometry | None) -> tuple[str, tuple[float, ...
     raise MeshError("the shape is not a mesh, box, cylinder, sphere, capsule, ellipsoid or cone")
 
 
-def _cover(solid: Solid, corners: Points, pieces: int) -> list[Piece]:
+def _cover(solid: Solid, pieces: int) -> list[Piece]:
     """Cover a shape by convex pieces in the frame of the link."""
-    if solid.kind == "mesh":
+    if solid.vertices is not None and solid.faces is not None:
+        corners = solid.vertices[solid.faces]
         return [make_hull(points) for points in split_triangles(corners, pieces)]
     none = np.zeros((0, 3), dtype=np.int64)
     if solid.kind == "sphere":

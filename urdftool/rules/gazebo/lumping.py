@@ -105,7 +105,7 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
             continue
         what = quote(dict.fromkeys(f"<{child.tag}>" for child in lost)).replace("'", "")
         settles = all(child.tag in JOINT_KEYWORDS for child in lost)
-        if settles and not _is_named_by_plugin(robot, joint.name):
+        if settles and not _has_read_feedback(robot, block):
             continue  # a fixed joint has no spring, and nothing reads its feedback
         remedy = "add <preserveFixedJoint>true</preserveFixedJoint>"
         child = robot.link.get(joint.child)
@@ -124,12 +124,17 @@ def lumped_joint_loses_content(robot: Robot) -> Iterator[Problem]:
         )
 
 
-def _is_named_by_plugin(robot: Robot, joint: str) -> bool:
-    """Tell whether a plugin or a sensor in a block has the name of a joint as the text of a tag."""
+def _has_read_feedback(robot: Robot, block: GazeboExtension) -> bool:
+    """Tell whether a block of a joint has feedback, and a plugin names the joint, except as mimic.
+
+    The name is the text of a tag in a plugin or sensor.
+    """
+    if block.element.find_child("provideFeedback") is None:
+        return False
     return any(
-        each.text.strip() == joint
-        for block in robot.gazebo
-        for child in block.element.children
+        each.text.strip() == block.reference and "mimic" not in each.tag.lower()
+        for other in robot.gazebo
+        for child in other.element.children
         if child.tag in ("plugin", "sensor")
         for each in child.walk()
     )

@@ -151,7 +151,8 @@ def missing_control_plugin(
     axle about its y axis, the message has the parameters of a differential drive.
 
     A plugin in an XML comment counts as one that the author left out. A file whose plugins are all
-    of sensors is reported as one without.
+    of sensors is reported as one without; a file without plugins but with transmissions or
+    ``<ros2_control>`` as an info.
 
     A file without plugins, transmissions and ``<ros2_control>`` is not reported, because a world,
     a wrapper or a program may add the plugin, nor one without plugins that only a ``<gazebo>`` tag
@@ -203,7 +204,8 @@ def missing_control_plugin(
     if pair is not None:
         data |= {"wheel_separation": pair.separation, "wheel_radius": pair.radius}
     message = f"{which} {names} {verb}, but no Gazebo plugin {acts}; add {remedy}"
-    yield Problem(robot, message, data=data, severity=None if is_driven else INFO)
+    is_complete = bool(plugins) or pair is not None
+    yield Problem(robot, message, data=data, severity=None if is_complete else INFO)
 
 
 @missing_control_plugin.fix(UNSAFE)

@@ -19,7 +19,7 @@ def is_marker(robot: Robot, link: Link, mass: float, small: float, marker: float
     box = reach.get_link_box(link)
     if box is None or max(box.size) >= small:
         return False
-    if max(box.size) <= marker and robot.tree.get_parent_joint(link.name) is not None:
+    if max(box.size) <= marker * _ROUNDING and robot.tree.get_parent_joint(link.name) is not None:
         return True
     return sum(other.mass for other, _ in reach.get_attached(link)[1:]) >= 10 * mass
 
@@ -37,6 +37,9 @@ def is_anchor(robot: Robot, link: Link) -> bool:
         0.5 * right <= one <= 2 * right for one, right in zip(written, solid, strict=True)
     )
 
+
+_ROUNDING = 1 + 1e-6
+"""Factor, because the box of a rotated shape is subject to rounding."""
 
 _HEAVY_STAND = 100.0
 """[kg] A root of this mass and more is a stand if its mass is a power of ten. Chosen, no source."""

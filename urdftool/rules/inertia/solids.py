@@ -143,7 +143,7 @@ def is_dummy(link: Link, *, largest: float = 0.005) -> bool:
     The inertia of a solid of that size is so small that no joint should move it alone.
     """
     box = compute_box(link)
-    return box is not None and max(box.size) <= largest
+    return box is not None and max(box.size) <= largest * (1 + 1e-6)
 
 
 _HELPER = re.compile(r"fake|dummy|marker|virtual", re.IGNORECASE)
