@@ -279,7 +279,7 @@ def implausible_mass(
     group="robot",
     caused_by=(
         *("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier"),
-        "collision-much-larger-than-visual",
+        *("collision-much-larger-than-visual", "mass-outlier"),
     ),
     formats=ANY_FORMAT,
 )
