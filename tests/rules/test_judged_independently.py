@@ -155,15 +155,16 @@ def test_pybullet_takes_one_color_for_all_materials_without_a_name(tmp_path, nam
     assert any("urdfdom" in reader for reader in found.effects)
 
 
-def test_a_root_of_mass_0_may_be_intended(tmp_path):
+@pytest.mark.parametrize(("name", "count"), [("hinge", 0), ("left_leg_joint", 1)])
+def test_a_root_of_mass_0_may_be_intended(tmp_path, name, count):
     parts = [
         LINK.format("frame", INERTIAL.format(0, 0, 0, 0)),
         LINK.format("door", INERTIAL.format(1, 0.1, 0.1, 0.1)),
-        JOINT.format("hinge", "continuous", "frame", "door", ""),
+        JOINT.format(name, "continuous", "frame", "door", ""),
     ]
-    (found,) = find(tmp_path, "zero-mass", *parts)
-    assert found.severity is Severity.INFO
-    assert "Keep it if PyBullet is to fix it" in found.message
+    found = find(tmp_path, "zero-mass", *parts)
+    assert [one.severity for one in found] == [Severity.INFO] * count
+    assert all("Keep it if PyBullet is to fix it" in one.message for one in found)
 
 
 CAD = [
@@ -181,7 +182,8 @@ CAD = [
         (CAD, "0.001", 0.08, 1),  # not the last decimal
         (CAD[:2], "0.0001", 0.08, 1),
         ([("0.0001",) * 3] * 5, "0.0001", 0.08, 1),
-        ([*CAD, ("0.00162", "0.003", "0.0035")], "0.0001", 0.08, 1),
+        ([*CAD, ("0.00162", "0.003", "0.0035")], "0.0001", 0.08, 0),
+        ([*CAD, *[("0.00162", "0.003", "0.0035")] * 4], "0.0001", 0.08, 1),
     ],
 )
 def test_a_moment_that_is_rounded_to_the_last_decimal(tmp_path, others, moment, size, count):

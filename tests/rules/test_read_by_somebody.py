@@ -175,3 +175,11 @@ def test_a_planar_base_is_not_driven_by_ros2_control(tmp_path):
     ]
     ((_, message),) = find(tmp_path, "joint-outside-ros2-control", *parts, targets=["ros2"])
     assert "'wrist'" in message
+
+
+@pytest.mark.parametrize(("mass", "labels"), [(27, ["info"]), (3, ["warning"])])
+def test_the_trunk_of_a_humanoid_may_have_1_kg_m2(tmp_path, mass, labels):
+    trunk = BODY.format("trunk", mass, BOX.format(0.3)).replace("0.01", "1")
+    parts = [*ARM, BODY.format("arm", 1, ""), trunk, JOINT.format("w", "revolute", "arm", "trunk")]
+    found = find(tmp_path, "placeholder-inertia", *parts)
+    assert [one for one, message in found if "'trunk'" in message] == labels

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 
+from ...model.attached import find_attached_links
 from ...model.elements import Link, Robot
 from ..mesh.link_extents import get_extents
 
 
 def is_slight_frame(robot: Robot, link: Link) -> bool:
     """Tell whether 1 kg in addition to a link's body matters little, or its shape is a frame's."""
-    return _is_frame_of_device(robot, link) or _is_far_heavier(robot)
+    return _is_frame_of_device(robot, link) or _is_far_heavier(robot, link)
 
 
 def _is_frame_of_device(robot: Robot, link: Link) -> bool:
@@ -31,9 +32,13 @@ _MARKED, _SMALL_DEVICE = 0.01, 0.06
 """Largest size [m] of a marker, and of a tool or sensor that needs no mass. Chosen, no source."""
 
 
-def _is_far_heavier(robot: Robot) -> bool:
-    """Tell whether the robot has fifty times the 1 kg that PyBullet substitutes."""
-    return sum(link.mass for link in robot.links) >= _FAR_HEAVIER
+def _is_far_heavier(robot: Robot, link: Link) -> bool:
+    """Tell whether the robot has fifty times the 1 kg that PyBullet substitutes, and the body 1 kg.
+
+    Otherwise the link may be the main part of its body.
+    """
+    body = sum(other.mass for other, _ in find_attached_links(robot, link))
+    return body >= 1.0 and sum(one.mass for one in robot.links) >= _FAR_HEAVIER
 
 
 _FAR_HEAVIER = 50.0

@@ -14,6 +14,7 @@ from ...source.location import Place
 from ..fix import FixContext, Proposal, remove_sign
 from ..mesh.link_extents import LinkExtents, get_extents
 from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
+from ..tree.mounted import is_mobile
 from ..words import join_some
 from .bodies import compute_mass, find_massless_pairs, find_rigid_bodies
 from .density import GOLD
@@ -54,8 +55,9 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     is less than that of air of the link's size is not that of the body: a trunk of mass 0 with a
     sensor of 1 g.
 
-    A root of mass 0 makes a model static in PyBullet, which may be intended, as for the frame of a
-    door; Gazebo rejects it. For a robot with moving joints it is an info. If the mass is 0 and the
+    A root of mass 0 makes a model static in PyBullet, which is intended for the frame of a door or
+    the base of an arm; Gazebo rejects it. It is an info for a robot that drives, walks or flies by
+    the names of its links and joints. If the mass is 0 and the
     inertia is not, Gazebo and pinocchio add the inertia to the body, and Drake gives the link 1 kg.
     Two links of mass 0 that are fixed to each other break Gazebo's reader, which divides by the sum
     of their masses.
@@ -114,6 +116,8 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
             case, severity = "moves", ERROR if link.collisions else WARNING
             so = "a moving body must have a mass"
         elif robot.moving_joints and targets != {"pybullet"}:
+            if joint is None and not is_mobile(robot):
+                continue  # the base of a mounted robot
             case, severity = "root", INFO
             so = "PyBullet fixes it to the world, and Gazebo loads nothing"
             if joint is not None:

@@ -80,7 +80,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     than that of air of the link's size, and except for PyBullet and MuJoCo, which substitute a mass
     there too. This info is not given for markers of at most 1 cm, for frames of tools and sensors
     by name of at most 6 cm, for links that are fixed to the world, and where the 1 kg of PyBullet
-    is less than a fiftieth of the robot's mass.
+    is less than a fiftieth of the robot's mass and than its body's.
     The mass of a link that is fixed to the world matters only to Gazebo.
     Frames without geometry need none, although PyBullet gives them 1 kg, nor does a frame with a
     marker below 1 g at the density of water that is fixed to a link with a mass. Another such

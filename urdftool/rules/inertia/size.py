@@ -62,7 +62,7 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
     arm accelerates like a flywheel and its motors seem too weak. Frames often have a placeholder to
     keep a simulation stable, so these are reported only if the value is too large: links of a few
     millimeters, links without geometry, and links of up to ``tiny`` [m] that are fixed to a
-    heavier link. Where all tensors of the robot are rounded to the same number of decimals, as CAD
+    heavier link. Where most tensors of the robot are rounded to the same number of decimals, as CAD
     programs do, 0.0001 may be the rounded moment of a small link and is not reported. Neither are
     the root of an arm, which is mounted, and links that only slide relative to the world.
     """
@@ -77,7 +77,7 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
         if is_last_decimal(robot, moment) and _may_round(robot, link, moment):
             continue
         radius = math.sqrt(moment / inertial.mass) if inertial.mass and inertial.mass > 0 else 0.0
-        large = moment == 1.0 or radius > 1.0
+        large = radius > (_PLAUSIBLE if moment == 1.0 else 1.0)
         dummy = is_dummy(link)
         if not large:
             if whole is None:
@@ -101,22 +101,25 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
 
 
 def is_last_decimal(robot: Robot, moment: float) -> bool:
-    """Tell whether a moment [kg·m²] is one unit of the last decimal of all tensors of a robot.
+    """Tell whether a moment [kg·m²] is one unit of the last decimal of most tensors of a robot.
 
     At least three other tensors must use that decimal, which several links with one placeholder
     do not.
     """
-    units: set[int] = set()
-    using = 0
-    for _, inertial, six in get_tensors(robot):
-        decimals = _count_decimals(inertial.inertia.xml if inertial.inertia else None)
-        if decimals is None:
-            return False
-        units.add(decimals)
-        using += math.isclose(moment, 10.0**-decimals) and len({*six[::3], six[5]}) > 1
-    return using >= _USING and math.isclose(moment, 10.0 ** -max(units))
+    found = [
+        (decimals, six)
+        for _, inertial, six in get_tensors(robot)
+        if (decimals := _count_decimals(inertial.inertia.xml if inertial.inertia else None))
+        is not None
+    ]
+    last = [decimals for decimals, _ in found if math.isclose(moment, 10.0**-decimals)]
+    using = sum(len({*six[::3], six[5]}) > 1 for decimals, six in found if decimals in last)
+    rounded = [decimals for decimals, _ in found if last and decimals <= last[0]]
+    return using >= _USING and 2 * len(rounded) > sum(1 for _ in get_tensors(robot))
 
 
+_PLAUSIBLE = 0.3
+"""Radius of gyration [m] of the trunk of a large robot. Chosen, no source."""
 _USING = 3
 """Other tensors that must be rounded to the same decimal. Chosen, no source."""
 _ROUNDED = 10.0
