@@ -157,14 +157,20 @@ def compare_limits(model: Any, theirs: Any) -> str:
     return f"{len(shared)} shared joints: {ranges} equal ranges, {forces} equal forces"
 
 
-def describe_home(model: Any) -> str:
-    """Describe the key and the height of the base."""
+def pose_at_key(model: Any) -> Any:
+    """Compute poses at the first key of a model, or at its start if it has none."""
     import mujoco
 
     data = mujoco.MjData(model)
     if model.nkey:
         mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_forward(model, data)
+    return data
+
+
+def describe_home(model: Any) -> str:
+    """Describe the key and the height of the base."""
+    data = pose_at_key(model)
     base = int(model.jnt_bodyid[0])
     joints = np.flatnonzero(model.jnt_type >= 2)
     bent = int((abs(data.qpos[model.jnt_qposadr[joints]]) > BENT).sum())
@@ -176,18 +182,15 @@ def describe_feet(model: Any) -> str:
     """Describe the contact of the lowest collision geoms."""
     import mujoco
 
-    from urdftool.formats.mjcf.verify_runs import _list_low_points
+    from urdftool.formats.mjcf.verify_runs import list_low_points
 
-    data = mujoco.MjData(model)
-    if model.nkey:
-        mujoco.mj_resetDataKeyframe(model, data, 0)
-    mujoco.mj_forward(model, data)
+    data = pose_at_key(model)
     plane = int(mujoco.mjtGeom.mjGEOM_PLANE)
     geoms = [
         g for g in range(model.ngeom)
         if (model.geom_contype[g] or model.geom_conaffinity[g]) and model.geom_type[g] != plane
     ]  # fmt: skip
-    lows = list(_list_low_points(mujoco, model, data))
+    lows = list(list_low_points(mujoco, model, data))
     feet = [g for g, low in zip(geoms, lows, strict=True) if low < min(lows) + LOW]
     kinds = Counter(
         f"condim {model.geom_condim[g]}, priority {model.geom_priority[g]}, "

@@ -388,6 +388,16 @@ def test_include_cycles_end(tmp_path):
     assert error.value.path == str(tmp_path / "b.sdf")
 
 
+def test_xml_that_libsdformat_accepts_is_read_and_reported(tmp_path):
+    file = sdf(tmp_path, '<!-- a -- b --><link name="a"/>')
+    file.write_text("\n" + file.read_text().replace("<sdf", '<?xml version="1.0"?><sdf') + "</sdf>")
+    found = read(file)
+    assert [link.name for link in found.robot.links] == ["a"]
+    codes = [(loss.code, loss.location.line) for loss in found.losses]
+    assert ("unread-not-well-formed", 2) in codes
+    assert "unread-end-tag" in dict(codes)
+
+
 def test_an_element_with_an_undeclared_prefix_is_passed_over(tmp_path):
     body = '<link name="a"><drake:joint name="x"/></link>'
     assert read(sdf(tmp_path, body)).robot.link["a"].mass == 1.0

@@ -83,6 +83,10 @@ def read(
     for place in expanded.surplus:
         text = "end tags after the root element are ignored, as by MuJoCo"
         losses.add("end-tag", text, "", place)
+    for error in expanded.tolerated:
+        assert error.at is not None
+        text = "XML that MuJoCo accepts and other readers reject"
+        losses.add("not-well-formed", text, error.message, error.at, Severity.INFO)
     found = losses.make_findings()
     robot.unread = found
     return Reading(robot, found)

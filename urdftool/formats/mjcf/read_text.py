@@ -15,9 +15,9 @@ from pathlib import Path, PurePath
 from xml.sax.saxutils import quoteattr
 
 from ...errors import ModelError, SourceError, XmlError
-from ...source.document import STDIN, Element, parse, read_file
+from ...source.document import STDIN, Element, read_file
 from ...source.location import Place, SourceFile
-from ...source.well_formed import drop_end_tags_after_root, repair
+from ...source.tinyxml2 import parse_as_tinyxml2
 from ...workspace import Workspace
 from .read_assets import Asset, AssetNames
 
@@ -43,6 +43,7 @@ class Expanded:
         files: Files that were read, the main one first.
         lines: Element by its line in ``text`` or in an attached model.
         surplus: End tags after the root of a file.
+        tolerated: Other defects of XML that MuJoCo accepts.
     """
 
     root: Element
@@ -52,6 +53,7 @@ class Expanded:
     files: list[SourceFile] = field(default_factory=list)
     lines: dict[int, Element] = field(default_factory=dict)
     surplus: list[Place] = field(default_factory=list)
+    tolerated: list[XmlError] = field(default_factory=list)
 
     def get_element_at(self, line: int) -> Element:
         """Return the element of a line; the root for a line without an element."""
@@ -80,6 +82,7 @@ def expand(file: SourceFile, workspace: Workspace) -> Expanded:
         lines=reader.lines,
         assets=reader.assets,
         surplus=reader.surplus,
+        tolerated=reader.tolerated,
     )
     folder = Path() if file.path == STDIN else Path(file.path).parent
     main = _Model(_make_key(file.path), "", root, folder, "")
@@ -128,29 +131,20 @@ class _Reader:
         self.workspace = workspace
         self.files: list[SourceFile] = []
         self.surplus: list[Place] = []
+        self.tolerated: list[XmlError] = []
         self.lines: dict[int, Element] = {}
         self.assets: dict[str, Asset] = {}
         self._models: dict[str, _Model] = {}
 
     def parse_file(self, file: SourceFile) -> Element:
-        """Parse a file; MuJoCo's XML reader accepts some text that is not well-formed."""
+        """Parse a file as MuJoCo's XML reader does."""
         self.files.append(file)
-        try:
-            return parse(file).root
-        except XmlError:
-            repaired = self._repair(file)
-            if repaired is None:
-                raise
-        return parse(repaired).root
-
-    def _repair(self, file: SourceFile) -> SourceFile | None:
-        repaired = repair(file)
-        dropped = drop_end_tags_after_root(repaired or file)
-        if dropped is None:
-            return repaired
-        file, place = dropped
-        self.surplus.append(place)
-        return file
+        read = parse_as_tinyxml2(file)
+        if read.surplus is not None:
+            self.surplus.append(read.surplus)
+        if read.error is not None:
+            self.tolerated.append(read.error)
+        return read.document.root
 
     def write_text(self, model: _Model, first: int) -> str:
         """Write a model with one start tag per line, and register its lines.

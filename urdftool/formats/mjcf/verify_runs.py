@@ -332,11 +332,11 @@ def _read_spec(mujoco: Any, path: Path) -> Any:
 
 def compute_lowest_point(mujoco: Any, model: Any, data: Any) -> float:
     """Compute the height [m] of the lowest point of the collision geoms, in the world."""
-    lows = list(_list_low_points(mujoco, model, data))
+    lows = list(list_low_points(mujoco, model, data))
     return min(lows, default=0.0)
 
 
-def _list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
+def list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
     """Yield the height [m] of the lowest point of each collision geom that is not a plane."""
     kinds = mujoco.mjtGeom
     for geom in range(model.ngeom):

@@ -12,6 +12,7 @@ from ...source.access import MODEL_PATHS
 from ...source.document import Element, parse, read_file
 from ...source.location import SourceFile
 from ...source.packages import Packages
+from ...source.tinyxml2 import parse_as_tinyxml2
 from ...workspace import Workspace
 from ..reading import Losses
 from .read_scope import MODEL, SELF_COLLIDE, Item, Scope, read_own_pose
@@ -61,7 +62,7 @@ class Models:
             ModelError: The root is not ``<sdf>``, or it has too many elements.
         """
         self.files.append(file)
-        root = parse(file).root
+        root = self._parse(file)
         if root.tag != "sdf":
             raise ModelError(f"the root element is <{root.tag}>, not <sdf>", at=root.place)
         for element in root.walk():
@@ -77,6 +78,16 @@ class Models:
             text = f"rules of SDF 1.{OLDEST[1]} are used for an earlier version"
             self.losses.add("version", text, root.get("version") or "", root.place)
         return root
+
+    def _parse(self, file: SourceFile) -> Element:
+        read = parse_as_tinyxml2(file)
+        if read.surplus is not None:
+            text = "end tags after the root element are ignored, as by libsdformat"
+            self.losses.add("end-tag", text, "", read.surplus)
+        if read.error is not None and read.error.at is not None:
+            text, error = "XML that libsdformat accepts and other readers reject", read.error
+            self.losses.add("not-well-formed", text, error.message, error.at, Severity.INFO)
+        return read.document.root
 
     def list_top_models(self, root: Element) -> list[Scope]:
         """Return the models of a file, those of its world included.

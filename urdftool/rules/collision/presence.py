@@ -38,7 +38,7 @@ _CONTACT = re.compile(r"wheel|caster|(^|_)(foot|feet)(_|\d|$)", re.IGNORECASE)
 _LOAD = "gz, gazebo-classic, pybullet, pinocchio, drake"
 _PASS = "gz, gazebo-classic, pybullet"
 _MARKER = 0.1
-"""[m] a marker of a frame is no larger. Chosen, no source."""
+"""Maximum size [m] of a marker of a frame; chosen, no source."""
 
 
 @rule(

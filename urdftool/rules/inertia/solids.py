@@ -148,7 +148,7 @@ def is_dummy(link: Link, *, largest: float = 0.005) -> bool:
 
 _HELPER = re.compile(r"fake|dummy|marker|virtual", re.IGNORECASE)
 _MARKER = 0.01
-"""[m] Geometry that marks the place of a link without a body is no larger. Chosen, no source."""
+"""Maximum size [m] of geometry that marks the place of a link without a body; chosen, no source."""
 
 
 def is_helper(link: Link) -> bool:

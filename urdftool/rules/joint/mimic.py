@@ -260,9 +260,9 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
     the mimic constraint and the limit conflict: the leader stops early, and a gripper may
     oscillate. ``tolerance`` [rad or m] is the difference that is ignored. If the limits hold for
     the opposite multiplier, its sign is the first thing to check, and the finding is at it.
-    Otherwise the description does not show which of the two joints has the right limits, so there
-    is no fix. Joints whose bounds are exchanged, or that mimic each other in a circle, are not
-    reported.
+    Otherwise the description does not show which of the two joints has the right limits, so the
+    rule has no fix. Joints whose bounds are exchanged, or that mimic each other in a circle, are
+    not reported.
     """
     circular = {problem.name for problem in report_joints_of_cycles(robot)}
     for joint, mimic in _iterate_mimic_joints(robot):
