@@ -1,10 +1,14 @@
 """Export of robots that were read from SDF or MJCF, compared with their source."""
 
+from dataclasses import replace
+
 import pytest
 
 import urdftool as api
 from tests.conftest import FIXTURES
 from tests.formats.defective import joint, link, mjcf, sdf
+from urdftool.compare.compare import compare_robots
+from urdftool.model.elements import Origin
 
 READERS = FIXTURES / "readers"
 FORMATS = FIXTURES / "formats"
@@ -121,6 +125,23 @@ def test_usd_is_written_from_every_format(urdftool, write, tmp_path):
     path = write("m.sdf", SDF_TYPO)
     result = urdftool("export", "usd", path, "-o", tmp_path / "m.usda", "--verify")
     assert result.code == 0, result.err
+
+
+@pytest.mark.library("pxr")
+def test_a_ball_that_closes_a_loop_is_a_point_in_usd(write, tmp_path):
+    """SDF names the joint, MJCF and the reader of USD the constraint; both are the same."""
+    body = link("a") + link("b") + link("c") + joint("a", "b") + joint("a", "c", name="k")
+    loop = '<joint name="loop" type="ball"><parent>b</parent><child>c</child></joint>'
+    robot = api.load(write("m.sdf", sdf(body + loop)))
+    (row,) = (
+        check
+        for check in api.export_usd(robot, tmp_path / "m.usda", verify=True).checks
+        if check.name == "loops"
+    )
+    assert row.verdict == "equal"
+    moved = replace(robot, closures=[replace(robot.closures[0], origin=Origin(xyz=(0, 0, 1)))])
+    comparison = compare_robots(robot, moved)
+    assert {difference.row for difference in comparison.differences} == {"loops"}
 
 
 SLIDER = """<sdf version="1.9"><model name="m">{}<link name="a"><visual name="v"><geometry>

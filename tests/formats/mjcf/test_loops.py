@@ -1,5 +1,7 @@
 """Joints of ``<gazebo>`` that close a loop become equalities; what of them is lost is said."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -138,3 +140,14 @@ def test_the_loop_stays_closed(write, tmp_path, kind):
     for _ in range(500):
         mujoco.mj_step(model, data)
     assert apart() < 2e-3
+
+
+@pytest.mark.parametrize(("angle", "is_reported"), [(0.0, False), (0.5, True)])
+def test_a_loop_that_is_open_at_home_is_reported_once(write, angle, is_reported):
+    text = closed(POSE + AXIS, axes=("0 1 0", "1 0 0"))  # a loop in space, held at two points
+    written = export(write("r.urdf", text), pose={"ab": angle})
+    found = [loss for loss in written.losses if loss.code == "lossy-open-loop"]
+    assert bool(found) == is_reported
+    for loss in found:  # the greater radius is that of the point on the axis: (1, 0.1, 1)
+        assert f"{2 * math.sqrt(2) * math.sin(angle / 2):.3g} m" in loss.message
+    assert len(found) == is_reported

@@ -21,6 +21,7 @@ from ..common.base_pose import get_robot_origin
 from ..common.holding_pose import choose_holding_positions
 from ..common.home_positions import choose_home_positions
 from ..common.joint_loads import JointLoad, compute_joint_loads
+from ..common.open_loops import report_open_loops
 from ..common.shape_box import ShapeBoxes
 from ..common.srdf import read_srdf
 from ..common.standing import measure_ground
@@ -156,6 +157,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
         world=_choose_world(structure) | robot.world | _set_timestep(options),
     )
     structure = replace(structure, robot=planned)
+    report_open_loops(planned, home.positions, written)
     return Plan(name, options, structure, home, masses, boxes, wrong)
 
 

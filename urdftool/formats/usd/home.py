@@ -15,6 +15,7 @@ from ..common.floor import lift_to_floor
 from ..common.holding_pose import choose_holding_positions
 from ..common.home_positions import choose_home_positions
 from ..common.joint_loads import JointLoad, compute_joint_loads
+from ..common.open_loops import report_open_loops
 from ..common.rigid_tree import RigidGroups, group_rigid_links
 from ..common.servo_gains import (
     TIMESTEP,
@@ -85,6 +86,7 @@ def plan_home(
         report_support(tree, boxes, positions, written)
         pose = lift_to_floor(tree, boxes, positions, pose)
         ground = measure_ground(tree, boxes, positions, pose)
+    report_open_loops(robot, positions, written)
     masses = {name: one.body for name, one in inertias.items()}
     loads = compute_joint_loads(tree, masses, positions, pose, ground)
     return Home(positions, pose, tree, ground, loads)

@@ -1,0 +1,1 @@
+"""SDF files as libsdformat and as urdftool read them."""
