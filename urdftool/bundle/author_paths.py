@@ -40,5 +40,13 @@ def drop_paths_in_comments(data: bytes) -> bytes:
     return _COMMENT.sub(lambda comment: _PATH.sub(_get_name, comment[0]), data)
 
 
+def shorten_absolute_uri(uri: str) -> str:
+    """Return the name of a file in place of an absolute path; other URIs are unchanged."""
+    return re.split(r"[\\/]", uri.rstrip("\\/"))[-1] if _ABSOLUTE.match(uri) else uri
+
+
+_ABSOLUTE = re.compile(r"file:|[\\/]|[A-Za-z]:[\\/]")
+
+
 def _get_name(path: re.Match[bytes]) -> bytes:
     return re.split(rb"[\\/]", path[0].rstrip(b"\\/"))[-1]

@@ -16,7 +16,7 @@ from ..refusal import refuse
 from ..source.document import STDIN
 from ..source.location import SourceFile
 from ..storage import cache_folder
-from .author_paths import drop_paths_in_comments
+from .author_paths import drop_paths_in_comments, shorten_absolute_uri
 from .collect import Collection, collect
 from .description import format_comment, make_urdf, rewrite
 from .layout import make_portable
@@ -151,7 +151,9 @@ def make_bundle(
     bundle.files[description] = drop_paths_in_comments(text)
     if relative:
         bundle.manifest.changes.append('<compiler strippath="false"/> in <mujoco>')
-    bundle.manifest.missing = sorted(replace_folders(uri, own_folders) for uri in found.missing)
+    bundle.manifest.missing = sorted(
+        {shorten_absolute_uri(replace_folders(uri, own_folders)) for uri in found.missing}
+    )
     bundle.manifest.arguments = {
         name: replace_folders(value, own_folders) for name, value in manifest.arguments.items()
     }

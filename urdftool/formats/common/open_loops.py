@@ -42,13 +42,14 @@ def report_open_loops(robot: Robot, positions: Mapping[str, float], written: Wri
 
 
 def _report(loop: Closure, gap: float, written: Written) -> None:
+    name = loop.name or f"{loop.parent} – {loop.child}"
     written.report_loss(
         "open-loop",
-        f"closed loop '{loop.name}' is open by {gap:.3g} m at home, and simulators close it with a "
+        f"closed loop '{name}' is open by {gap:.3g} m at home, and simulators close it with a "
         "jerk; --pose chooses other positions",
         loop.place,
         kind="closed loop",
-        name=loop.name,
+        name=name,
     )
 
 

@@ -22,6 +22,7 @@ from ...model.settings import Rejected
 from ..common.naming import UniqueNames
 from ..common.numbers import format_numbers_text
 from ..written import Written
+from .copied import has_copies
 from .structure import WORLD, Structure
 
 KINDS = {"revolute": "connect", "continuous": "connect", "ball": "connect", "fixed": "weld"}
@@ -57,7 +58,7 @@ def plan_closures(structure: Structure, written: Written) -> list[Closure]:
         if kind is None:
             _report_kind(closure, written)
         elif closure.xml is None and structure.robot.format == "mjcf":
-            if _is_closed(structure, closure):
+            if has_copies(structure.robot, "equality") or _is_closed(structure, closure):
                 found.append(closure)
             else:
                 _report_apart(closure, written)

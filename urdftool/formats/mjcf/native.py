@@ -98,7 +98,9 @@ def _set_attributes(element: NativeElement, sections: Sections, written: Written
         for found in section.iter(*tags):
             if found.get("name") == element.name:
                 for name, value in element.attributes.items():
-                    if name != "mocap" or found.getparent() is sections["worldbody"]:
+                    if name == "mocap" and found.getparent() is not sections["worldbody"]:
+                        _report(element, "mocap is not copied: its parent has a body", written)
+                    else:
                         found.set(name, value)
                 return
     names = ", ".join(name for name in element.attributes if name != "name")

@@ -30,7 +30,7 @@ from ..common.upright import turn_upright
 from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
-from .copied import has_copied_home, has_copies
+from .copied import has_copied_home, has_copies, list_sites, refer_to_sites
 from .for_rl import (
     add_rotors,
     find_feet,
@@ -134,7 +134,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
         for joint in structure.joints
         if joint.name in structure.locked
     ]
-    frames = [*sites, *(one for one in robot.frames if one.kind != "body")]
+    frames = [*sites, *list_sites(robot)]
     sensors = plan_sensors(structure, frames, written, base=options.base_sensors)
     actuators = plan_actuators(structure, options, loads, settings, ground, written)
     feet = find_feet(structure, ground, home.pose, home.positions) if is_for_rl else frozenset()
@@ -146,6 +146,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
         structure.robot,
         joints=_set_efforts(structure.robot, actuators),
         frames=sensors.frames,
+        native=list(refer_to_sites(robot)),
         mounted_sensors=sensors.sensors,
         cameras=sensors.cameras,
         closures=plan_closures(structure, written),

@@ -221,8 +221,9 @@ def _close(context: Context, robot: Robot, row: Row, written: Written) -> None:
     else:
         u, v, w = row["data"][3:6]
         q0, q1, q2, q3 = row["data"][6:10]
+        # both positions are those of the anchor, in the first and the second body
         origin = context.shifts[one] @ Pose(rotation_from_quaternion((q0, q1, q2, q3)), (u, v, w))
-        child_origin = context.shifts[other]
+        child_origin = context.shifts[other] @ Pose(translation=(x, y, z))
     robot.closures.append(
         Closure(
             written,
@@ -249,8 +250,11 @@ def _add_sensor(context: Context, robot: Robot, row: Row) -> None:
     if kind in ("site", "geom", "camera"):
         holder = context.list_rows(kind)[target]
         body, at = holder["bodyid"], context.compute_pose_in_link(holder)
-    elif kind in ("body", "xbody"):
+    elif kind == "xbody":
         body, at = target, context.shifts[target]
+    elif kind == "body":  # at its center of mass
+        center = Pose(translation=tuple(context.list_rows("body")[target]["ipos"]))
+        body, at = target, context.shifts[target] @ center
     if body < 0 or not context.links[body]:
         text = "sensors of other things than a link or joint are not read"
         context.losses.add("sensor", text, row["name"], written.place, Severity.INFO)

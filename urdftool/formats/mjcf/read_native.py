@@ -16,6 +16,7 @@ from ...model.provenance import Written
 from ...model.settings import OF_WORLD
 from ...source.document import Element, parse
 from ...source.location import SourceFile
+from .read_anchors import move_anchors
 from .read_compile import Row
 from .read_context import Context
 from .read_defaults import Defaults
@@ -112,6 +113,8 @@ def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
         ]
         if tag in MERGED:
             made = _merge(made)
+        if tag == "equality":
+            move_anchors(context, made)
         if has_reference and _is_at_reference(tag, made):
             continue
         values = context.compiled.values.get(tag, [])

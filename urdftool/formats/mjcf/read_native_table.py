@@ -94,7 +94,7 @@ READ = {
 """Attributes that the robot holds, or that take effect in others that it holds."""
 
 PARTS = {
-    "body": (("sleep", "user"), ()),
+    "body": (("mocap", "sleep", "user"), ()),
     "joint": ((), ("group", "user")),
     "freejoint": ((), ("group", "user")),
     "geom": ((), ()),
