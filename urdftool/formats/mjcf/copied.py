@@ -89,7 +89,7 @@ def refer_to_sites(robot: Robot) -> Iterator[NativeElement]:
     """Yield the elements of a robot, with sensors that refer to the sites of :func:`list_sites`."""
     moved = {frame.link for frame in robot.frames if frame.kind == "body"}
     for element in robot.native:
-        changed = {}
+        changed: dict[str, str] = {}
         for name, kind in OBJECTS.items():
             link = element.attributes.get(name, "")
             is_frame = element.section == "sensor" and element.attributes.get(kind) == "xbody"

@@ -84,9 +84,12 @@ class Models:
         if read.surplus is not None:
             text = "end tags after the root element are ignored, as by libsdformat"
             self.losses.add("end-tag", text, "", read.surplus)
-        if read.error is not None and read.error.at is not None:
-            text, error = "XML that libsdformat accepts and other readers reject", read.error
-            self.losses.add("not-well-formed", text, error.message, error.at, Severity.INFO)
+        if read.error is not None:
+            assert read.error.at is not None
+            text = "XML that libsdformat accepts and other readers reject"
+            self.losses.add(
+                "not-well-formed", text, read.error.message, read.error.at, Severity.INFO
+            )
         return read.document.root
 
     def list_top_models(self, root: Element) -> list[Scope]:
