@@ -24,7 +24,7 @@ def {function}(robot: Robot) -> Iterator[Problem]:
     Describe what readers do with it, and what to write instead.
     """
     for joint in robot.joints:
-        if False:  # the defect, by the values of the joint
+        if False:  # the defect, by values of model/elements.py
             yield Problem(joint, f"joint '{{joint.name}}' has the defect; write the remedy")
 '''
 
