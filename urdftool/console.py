@@ -44,6 +44,7 @@ class Console:
         debug: Whether to print tracebacks.
         shows_progress: Whether to print progress; a worker does not.
         transcript: Receives each line that is printed; None for none.
+        collected: Receives the lines instead of stderr; None to print them.
     """
 
     color: str = "auto"
@@ -53,6 +54,7 @@ class Console:
     debug: bool = False
     shows_progress: bool = True
     transcript: Transcript | None = None
+    collected: list[str] | None = None
 
     @property
     def quiet(self) -> bool:
@@ -100,6 +102,9 @@ class Console:
             self._write(f"  … and {len(error.notes) - _MOST_NOTES} more")
 
     def _write(self, line: str) -> None:
+        if self.collected is not None:
+            self.collected.append(line)
+            return
         if self.transcript is not None:
             self.transcript.add("stderr", line)
         with suppress(OSError):  # stderr may be closed; the exit code remains

@@ -16,7 +16,7 @@ from urdftool.simulation.settings import Settings
 FILES = {str(path): name for name, path in robots()}
 
 
-def work(path: str) -> Row:
+def work(path: str, notes: list[str]) -> Row:
     """One robot in both engines."""
     robot = load(path)
     verdicts, comparison = simulate_and_judge(

@@ -22,7 +22,7 @@ ROBOTS = FIXTURES / "robots"
 MIRA = ROBOTS / "mira_description" / "urdf"
 
 
-def _work(path):
+def _work(path, notes):
     if path == "error":
         raise UrdftoolError("is wrong", path=path, line=3, column=4)
     if path == "refused":
@@ -233,3 +233,13 @@ def _processes():
     """Their command lines and environments."""
     ps = ["ps", "axeww", "-o", "args="]
     return subprocess.run(ps, capture_output=True, text=True).stdout.splitlines()
+
+
+def test_notes_of_workers_are_printed_in_the_order_of_the_robots(urdftool, write):
+    pytest.importorskip("pybullet")
+    blocks = "".join(f'<gazebo reference="{name}"/>' for name in ("none", "nobody"))
+    robot = '<robot name="r"><link name="a"/>{}</robot>'
+    paths = [write(f"{name}.urdf", robot.format(blocks)) for name in "ba"]
+    result = urdftool("simulate", "--fleet", *paths, "-j", "2", "--duration", "0.01")
+    noted = [line for line in result.err.splitlines() if "'none'" in line]
+    assert [line.partition(":")[0] for line in noted] == paths

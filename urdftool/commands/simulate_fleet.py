@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -45,8 +45,12 @@ class Fleet:
     named: frozenset[str]
     cache: str | None
 
-    def __call__(self, path: str) -> Row:
+    def __call__(self, path: str, notes: list[str]) -> Row:
         """Simulate and judge one robot.
+
+        Args:
+            path: Its description.
+            notes: Receives the lines to print; a worker of a cluster prints elsewhere.
 
         Raises:
             UrdftoolError: The robot cannot be read or simulated.
@@ -57,17 +61,18 @@ class Fleet:
         from .simulate_control import apply_controllers, take_robot_of_scene
         from .simulate_one import read_configured_thresholds, simulate_and_judge
 
+        console = replace(self.console, collected=notes)
         robot = load_tolerant(
-            self.console, path, self.arguments, self.packages, self.package_paths, many=True
+            console, path, self.arguments, self.packages, self.package_paths, many=True
         )
-        robot = take_robot_of_scene(self.console, robot)
+        robot = take_robot_of_scene(console, robot)
         set_cache_folder(robot, self.cache)
         if not robot.links and path not in self.named:
             return Row(path, robot.name, skipped="the file has only macros and no link")
         settings = apply_controllers(
-            self.console, self.settings, robot, self.controllers, strict=self.strict
+            console, self.settings, robot, self.controllers, strict=self.strict
         )
-        thresholds = read_configured_thresholds(self.console, path)
+        thresholds = read_configured_thresholds(console, path)
         verdicts, comparison = simulate_and_judge(
             robot, settings, self.engines, thresholds, strict=self.strict
         )
@@ -119,6 +124,9 @@ def simulate_fleet(
             rows[row.path] = row
             progress(len(rows), len(descriptions), row.path)
     ordered = [rows[path] for path in descriptions]
+    for row in ordered:
+        for line in row.notes:
+            console.print_line(line)
     if junit is not None:
         write_file(junit, report.to_junit(ordered).encode("utf-8"), inputs=descriptions)
     if style == "json":

@@ -37,6 +37,7 @@ class Row:
         skipped: Reason why the robot was skipped; empty if it was not.
         engine: Titles and versions of the engines.
         seconds: Wall-clock time [s].
+        notes: Lines that were to be printed, by the process that simulated it.
     """
 
     path: str
@@ -50,6 +51,7 @@ class Row:
     skipped: str = ""
     engine: str = ""
     seconds: float = 0.0
+    notes: list[str] = field(default_factory=list)
 
     @property
     def fell(self) -> bool:
@@ -87,7 +89,7 @@ def make_row(path: str, name: str, verdicts: Sequence[Verdict], more: Sequence[F
 
 def run_in_parallel(
     paths: Sequence[str],
-    work: Callable[[str], Row],
+    work: Callable[[str, list[str]], Row],
     *,
     jobs: int | None = None,
     limit: float = PATIENCE,
@@ -97,7 +99,8 @@ def run_in_parallel(
 
     Args:
         paths: Paths of the descriptions.
-        work: Function that makes a row; it must be picklable if processes are not forked.
+        work: Function that makes a row, and adds lines to print to a list; it must be picklable if
+            processes are not forked.
         jobs: Number of processes; None for one per core.
         limit: Time limit of one robot [s].
         scheduler: Address of a Dask scheduler to use instead of processes.
@@ -131,10 +134,18 @@ def run_in_parallel(
         yield row
 
 
-def _make_row(work: Callable[[str], Row], path: str) -> Row:
+def _make_row(work: Callable[[str, list[str]], Row], path: str) -> Row:
+    """Make the row of a robot, with the lines to print."""
+    notes: list[str] = []
+    row = _try_row(work, path, notes)
+    row.notes = notes
+    return row
+
+
+def _try_row(work: Callable[[str, list[str]], Row], path: str, notes: list[str]) -> Row:
     """Make the row of a robot; an exception becomes its error."""
     try:
-        return work(path)
+        return work(path, notes)
     except UrdftoolError as error:
         return Row(path, error=make_plain_error(error))
     except (OSError, MemoryError) as error:
