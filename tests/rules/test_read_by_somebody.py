@@ -183,3 +183,10 @@ def test_the_trunk_of_a_humanoid_may_have_1_kg_m2(tmp_path, mass, labels):
     parts = [*ARM, BODY.format("arm", 1, ""), trunk, JOINT.format("w", "revolute", "arm", "trunk")]
     found = find(tmp_path, "placeholder-inertia", *parts)
     assert [one for one, message in found if "'trunk'" in message] == labels
+
+
+@pytest.mark.parametrize(("xyz", "severity"), [("0 0 0", "info"), ("0 0 0.1", "error")])
+def test_a_misspelled_origin_of_zeros_changes_nothing(tmp_path, xyz, severity):
+    visual = f'<visual><origion xyz="{xyz}"/><geometry><sphere radius="1"/></geometry></visual>'
+    found = find(tmp_path, "unknown-element", BODY.format("ball", 1, visual))
+    assert label(found) == [severity]

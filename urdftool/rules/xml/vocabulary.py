@@ -181,8 +181,9 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     Readers ignore unknown elements without a message. With a misspelled ``<colision>`` the link
     falls through the ground; with an ``<inertia>`` outside ``<inertial>`` it has no mass. SDF
     elements in a URDF are ignored too. An element that is not similar to any of URDF may be for a
-    different program; it is an info. A ``<material>`` in a ``<collision>`` is not reported: a
-    collision has no color, and nothing is lost.
+    different program; it is an info, and so is a misspelled ``<origin>`` of zeros. A
+    ``<material>`` in a ``<collision>`` is not reported: a collision has no color, and nothing is
+    lost.
     """
     unknown = get_census(robot).unknown
     in_xacro = bool(unknown) and description.expansion is not None
@@ -192,7 +193,9 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         parent = element.parent
         if parent is None or parent.tag == "dynamics" or element.tag in of_xacro:
             continue
-        if (parent.tag, element.tag) in _HARMLESS or _is_zero_origin(element):
+        if (parent.tag, element.tag) in _HARMLESS:
+            continue
+        if element.tag == "origin" and _moves_nothing(element):
             continue
         if parent.tag == "geometry" and not _is_misplaced(element, parent):
             continue
@@ -205,17 +208,19 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             yield Problem(element, what, alike=(parent.tag, element.tag))
         elif word is not None and word != element.tag.lower():
             what = f"{_describe(parent)} has the unknown element <{element.tag}>; write <{word}>"
-            yield Problem(element, what, severity=ERROR, alike=(parent.tag, element.tag))
+            is_needless = word == "origin" and _moves_nothing(element)
+            severity = INFO if is_needless else ERROR
+            yield Problem(element, what, severity=severity, alike=(parent.tag, element.tag))
     for kind, elements in other.items():
         where = f"{_describe(elements[0].parent)}{_format_count(elements)}"
         message = f"<{kind[1]}> does not belong in {where}; URDF readers ignore it"
         yield Problem(elements[0], message, severity=INFO, alike=(*kind, len(elements) > 1))
 
 
-def _is_zero_origin(element: Element) -> bool:
+def _moves_nothing(element: Element) -> bool:
     """Tell whether an ``<origin>`` does not move anything, as exporters write one into links."""
     words = f"{element.get('xyz') or ''} {element.get('rpy') or ''}".split()
-    return element.tag == "origin" and all(number(word) == 0 for word in words)
+    return all(number(word) == 0 for word in words)
 
 
 def _is_misplaced(element: Element, geometry: Element) -> bool:
