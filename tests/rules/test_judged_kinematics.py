@@ -53,6 +53,17 @@ def test_stages_of_a_telescope_are_in_each_other(tmp_path, axis, kind, count):
     assert len(find(tmp_path, "self-collision-at-zero", *make_stages(axis, kind))) == count
 
 
+def test_two_fingers_of_a_palm_are_no_stages(tmp_path):
+    parts = [LINK.format(name, BOX.format(x, 1, 1, 1)) for name, x in (("palm", 9), *STUCK)]
+    for name, axis in (("left", "0 1 0"), ("right", "0 -1 0")):
+        parts.append(JOINT.format(f"{name}_slide", "prismatic", "palm", name, axis, RANGE))
+    assert len(find(tmp_path, "self-collision-at-zero", *parts)) == 1
+
+
+STUCK = (("left", 0), ("right", 0.5))
+"""Names of fingers, and where their boxes of 1 m are [m]."""
+
+
 @pytest.mark.parametrize(("pair", "count"), [(("a", "c"), 0), (("a", "b"), 1)])
 def test_pairs_of_the_srdf_are_known_to_overlap(tmp_path, pair, count):
     (tmp_path / "r.srdf").write_text(SRDF.format(*pair, "Never"), "utf-8")

@@ -40,8 +40,14 @@ def _list_joints_above(robot: Robot, name: str) -> dict[str, Joint]:
 
 
 def is_telescope(robot: Robot, one: str, other: str) -> bool:
-    """Tell whether only parallel prismatic joints are between two links: nested stages."""
+    """Tell whether only parallel prismatic joints lead from one link to the other: nested stages.
+
+    Two fingers on one palm are no stages: neither is below the other.
+    """
     joints = list_joints_between(robot, one, other)
+    above = (_list_joints_above(robot, name).keys() for name in (one, other))
+    if not any({joint.name for joint in joints} <= names for names in above):
+        return False
     if len(joints) < 2 or any(joint.type != "prismatic" for joint in joints):
         return False
     poses = get_convex_bodies(robot).poses
