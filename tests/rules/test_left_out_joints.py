@@ -74,7 +74,7 @@ def test_soft_limits_beyond_the_hard_ones_may_still_slow_the_joint(tmp_path, sof
     ("rule", "soft"),
     [
         ("soft-limits-outside-hard", 'soft_lower_limit="-2" soft_upper_limit="2"'),
-        ("soft-limits-far-inside", 'soft_lower_limit="-0.1" soft_upper_limit="0.1"'),
+        ("soft-limits-far-inside", 'soft_lower_limit="-0.5" soft_upper_limit="0.5"'),
         ("soft-limits-lock-joint", ""),
     ],
 )

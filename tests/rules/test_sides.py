@@ -90,6 +90,7 @@ def test_links_in_a_circle_end_the_search(write):
     [
         (("left_c", "right_c"), "revolute", 1),
         (("left_c", "right_c"), "fixed", 0),
+        (("FL_LEG", "FR_LEG"), "revolute", 1),  # the L of LEG is not a side
         (("left_l", "left_r"), "revolute", 0),  # two side words, and no place tells which counts
     ],
 )

@@ -39,15 +39,29 @@ def find_twins(name: str, names: dict[str, Link] | dict[str, Joint]) -> list[str
             found.append(all_turned)
     for match in matches:
         if match[0] in _OTHER:
-            other = name[: match.start()] + _OTHER[match[0]] + name[match.end() :]
+            other = _swap_side(name, match)
             if other in names and other not in found:
                 found.append(other)
     return found
 
 
-def is_clear(name: str) -> bool:
-    """Tell whether a name has one side word, so that it can be paired in one way only."""
-    return len(_WORD.findall(name)) < 2
+def is_clear(name: str, names: dict[str, Link]) -> bool:
+    """Tell whether a name has one side word, so that it can be paired in one way only.
+
+    The first letter of a word in capitals, as in ``FL_LEG``, is none if there is no ``FL_REG``.
+    """
+    words = [
+        match
+        for match in _WORD.finditer(name)
+        if not name[match.end() : match.end() + 1].isalpha() or _swap_side(name, match) in names
+    ]
+    return len(words) < 2
+
+
+def _swap_side(name: str, match: re.Match[str]) -> str:
+    """Return a name with one of its side words swapped."""
+    other = _OTHER.get(match[0]) or _BACK[match[0]]
+    return name[: match.start()] + other + name[match.end() :]
 
 
 class Pair(NamedTuple):
@@ -97,7 +111,7 @@ class Sides:
             ]
         self.off += _find_stacked(both, 1 if self.normal is None else self.normal)
         self._displaced = {id(pair.left) for pair, _ in self.off}
-        self.off = [found for found in self.off if is_clear(found[0].left.name)]
+        self.off = [found for found in self.off if is_clear(found[0].left.name, robot.link)]
 
     def is_displaced(self, pair: Pair) -> bool:
         """Tell whether the joints of a pair are not mirror images."""

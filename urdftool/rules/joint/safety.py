@@ -176,11 +176,11 @@ def soft_limits_far_inside(
     Soft limits should be close to the joint limits: those of 395 joints in 40 public descriptions
     leave at least 78 % of the range. Usually a sign, a decimal point or a unit is wrong, or only
     the joint limits were changed. Planners then reject positions that the robot can reach. ``part``
-    is the part of the range that the soft limits must leave. Robots without transmissions and
-    ros2_control are reported for MoveIt only, because nothing else uses soft limits.
+    is the part of the range that the soft limits must leave. For a robot without transmissions and
+    ros2_control only MoveIt uses soft limits, so half of that part is enough.
     """
     if not _are_used(robot, targets):
-        return
+        part /= 2
     for joint in robot.joints:
         safety, limit = joint.safety_controller, joint.limit
         if safety is None or limit is None or not joint.is_limited:
