@@ -71,7 +71,9 @@ def test_the_same_robot_is_exit_0(urdftool, write):
     other = text().replace("\n", "  ").replace('xyz="0 0 0.5"', 'xyz="0 0 5e-1" rpy="0 0 0"')
     result = urdftool("diff", write("a.urdf", text()), write("b.urdf", other))
     assert (result.code, result.out) == (0, "")
-    assert result.err == "a.urdf → b.urdf: the same robot\n"
+    assert result.err == (
+        "a.urdf → b.urdf: no differences (meshes by their names, not by content)\n"
+    )
 
 
 def test_a_tolerance(urdftool, write):
@@ -201,3 +203,46 @@ def test_two_robots_are_wanted(urdftool, words):
     result = urdftool("diff", *words)
     assert result.code == 2
     assert "Try 'urdftool diff --help'" in result.err
+
+
+def test_what_only_verify_found_is_a_difference(urdftool, write):
+    """Elements of a URDF that are in no block, and what holds for a whole robot or its looks."""
+    head, tail = "<robot name='r'><link name='a'>", "</link></robot>"
+    pairs = {
+        "link 'a'\n  contact/lateral_friction/@value: 1 → 2\n": (
+            f"{head}<contact><lateral_friction value='{number}'/></contact>{tail}"
+            for number in (1, 2)
+        ),
+        "foo\n  added\n": (head + tail, f"{head}</link><foo x='1'/></robot>"),
+        "loop_joint 'l'\n  @type: ball → none\n": (
+            f"{head}</link><loop_joint name='l'{kind}/></robot>" for kind in (" type='ball'", "")
+        ),
+        "joint 'j'\n  foo/@x: 1 → 2\n": (
+            f"{head}</link><link name='b'/><joint name='j' type='fixed'><parent link='a'/>"
+            f"<child link='b'/><foo x='{number}'/></joint></robot>"
+            for number in (1, 2)
+        ),
+        "robot 'm'\n  gravity: 0 0 -9.81 → 0 0 -1 m/s²\n": (
+            f"<mujoco model='m'><option gravity='0 0 {z}'/><worldbody><body name='b'>"
+            "<freejoint/><geom size='1'/></body></worldbody></mujoco>"
+            for z in (-9.81, -1)
+        ),
+        "robot 'm'\n  self collide: false → true\n": (
+            f"<sdf version='1.10'><model name='m'><self_collide>{word}</self_collide>"
+            "<link name='a'/></model></sdf>"
+            for word in ("false", "true")
+        ),
+        "link 'a'\n  base: free → fixed\n": (
+            f"<sdf version='1.10'><model name='m'><static>{word}</static><link name='a'/></model>"
+            "</sdf>"
+            for word in ("false", "true")
+        ),
+    }
+    for out, texts in pairs.items():
+        ending = {"<s": "sdf", "<m": "xml"}
+        paths = [
+            write(f"{name}.{ending.get(text[:2], 'urdf')}", text)
+            for name, text in zip("ab", texts, strict=True)
+        ]
+        result = urdftool("diff", *paths)
+        assert (result.code, result.out) == (1, out)

@@ -8,15 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
+from ..errors import ModelError
 from ..model.angles import restore_angle
 from ..model.elements import Joint, Link, Robot, Vector
 from ..model.pose import compute_norm, make_restored_pose
+from .compare import compare_robots
 from .difference import EXISTENCE, RENAMED, Difference, describe_change
 from .extensions import compare_extensions
 from .joints import list_values
 from .links import collect_pose_values, compare_links
 from .mechanisms import compare_mechanisms
 from .native import are_of_one_format, compare_native
+from .rows import ROWS
 from .settings import compare_written_settings
 from .tolerance import TOLERANCE, are_close, close, format_motion, is_same_pose
 
@@ -60,6 +63,24 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Dif
     yield from compare_mechanisms(a, b, tolerance, renamed)
     if are_of_one_format(a, b):
         yield from compare_native(a.native, b.native, tolerance, renamed)
+    if a.format == b.format and a.xml is None:
+        yield from _compare_whole(a, b, tolerance)
+
+
+def _compare_whole(a: Robot, b: Robot, tolerance: float) -> Iterator[Difference]:
+    """Yield the differences of base, world and looks, and of settings of whole robots.
+
+    They are those of ``compare.compare_robots``, which needs trees; in robots that form none, only
+    their parts are compared. In two URDF they are elements of blocks.
+    """
+    rows = [row._replace(tolerance=min(row.tolerance, tolerance)) for row in ROWS]
+    try:
+        found = compare_robots(a, b, rows=[row for row in rows if row.name in _OF_THE_WHOLE])
+    except ModelError:
+        return
+    for difference in found.differences:
+        if difference.row != "link flags" or difference.kind == "robot":
+            yield difference
 
 
 def _compare_presence(
@@ -150,6 +171,9 @@ def _list_replacements(
         if other.child in b.link:
             yield other, b.link[other.child]
 
+
+_OF_THE_WHOLE = frozenset(("base", "world", "looks", "link flags"))
+"""Rows that hold what no link and no joint has, or only the comparison of equal visuals finds."""
 
 _X: Vector = (1.0, 0.0, 0.0)
 

@@ -8,8 +8,7 @@ from dataclasses import replace
 
 from ..model.settings import JOINT_TAGS, LINK_TAGS
 from .difference import EXISTENCE, RENAMED, Comparison, Difference
-from .extensions import BLOCKS as TAGS
-from .extensions import compare_extensions, list_tags
+from .extensions import compare_extensions, list_block_tags, list_tags
 from .loops import put_loops_into_bodies
 from .mechanisms import ROW_OF, compare_mechanisms, list_parts_by_kind
 from .native import are_of_one_format, compare_native, list_in_bodies
@@ -26,7 +25,7 @@ _TOLERANCE = 1e-6
 
 _WHY = {BLOCKS: "only URDF has such blocks"}
 
-_READ = LINK_TAGS | JOINT_TAGS | {"sensor"}
+_READ = LINK_TAGS | JOINT_TAGS | {"sensor", "contact"}
 """Elements in blocks whose values are compared in rows of their own."""
 
 _READ_IN_GAZEBO = _READ | {"joint"}
@@ -88,7 +87,7 @@ def _record_parts(pair: Pair, comparison: Comparison) -> None:
             if kind in _COMPARED:
                 comparison.record_parts(ROW_OF[kind], *parts)
         if robot.xml is not None:
-            for tag in TAGS:
+            for tag in list_block_tags(robot):
                 comparison.record_parts(BLOCKS, *robot.xml.list_children(tag))
 
 

@@ -18,16 +18,51 @@ BLOCKS = ("transmission", "gazebo", "ros2_control")
 """Tags of the blocks."""
 _NAMING = ("name", "reference", "filename", "type")
 
+_COMPARED = {
+    "robot": frozenset(("link", "joint", "material")),
+    "link": frozenset(("inertial", "visual", "collision")),
+    "joint": frozenset(
+        (
+            *("parent", "child", "origin", "axis", "limit", "dynamics", "mimic"),
+            *("safety_controller", "calibration"),
+        )
+    ),
+}
+"""Elements of URDF that are compared by their values, by the element that they are in."""
+
 
 def compare_extensions(
     a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
 ) -> Iterator[Difference]:
-    """Yield differences of ``<gazebo>``, ``<transmission>`` and ``<ros2_control>`` blocks."""
-    for tag in BLOCKS:
+    """Yield differences of blocks, then of other elements that are not compared by values."""
+    for tag in list_block_tags(a, b):
         one = _collect_blocks(a, tag, renamed)
         two = _collect_blocks(b, tag, {})
         for name in dict.fromkeys((*one, *two)):
             yield from _compare_blocks(tag, name, one.get(name), two.get(name), tolerance, renamed)
+    for kind in ("link", "joint"):
+        before, after = (_flatten_others(*x, kind) for x in ((a, renamed), (b, {})))
+        for name in (name for name in before if name in after):
+            yield from _compare_flat(ROW, kind, name, before[name], after[name], tolerance, renamed)
+
+
+def list_block_tags(*robots: Robot) -> list[str]:
+    """Return the tags of blocks, then of what else is in a URDF next to links and joints."""
+    roots = [robot.xml for robot in robots if robot.xml is not None]
+    others = (child.tag for root in roots for child in root.children)
+    return [tag for tag in dict.fromkeys((*BLOCKS, *others)) if tag not in _COMPARED["robot"]]
+
+
+def _flatten_others(robot: Robot, renamed: Mapping[str, str], kind: str) -> dict[str, Flat]:
+    """Return what links or joints have in addition to the compared elements, by their names."""
+    found: dict[str, Flat] = {}
+    for element in () if robot.xml is None else robot.xml.list_children(kind):
+        name = element.get("name") or ""
+        flat = found.setdefault(renamed.get(name, name), {})
+        for child in element.children:
+            if child.tag not in _COMPARED[kind]:
+                _flatten(child, "", flat, renamed)
+    return found
 
 
 def _collect_blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, list[Element]]:
@@ -149,8 +184,10 @@ def _flatten_elements(elements: list[Element], renamed: Mapping[str, str]) -> Fl
     """Return attributes and texts below some elements by path, independent of their order."""
     found: Flat = {}
     for element in elements:
-        for child in element.children or [element]:
+        for child in element.children:
             _flatten(child, "", found, renamed)
+        if not element.children and (text := " ".join(element.text.split())):
+            found["text"] = text, element
         for name, value in element.attributes.items():
             if name not in ("name", "reference") and not name.startswith("xmlns"):
                 found.setdefault(f"@{name}", (value, element))

@@ -56,7 +56,7 @@ ROWS = (
     Row(LOOPS, "connections that close loops, of one format, or URDF and SDF", 0.0),
     Row("configurations", "named joint positions, of two files of one format", 0.0),
     Row("plugins", "plugins of URDF and SDF: class and parameters", 0.0),
-    Row(BLOCKS, "<gazebo>, <transmission>, <ros2_control> of two URDF", 0.0),
+    Row(BLOCKS, "<gazebo>, <transmission> and other elements of two URDF", 0.0),
     Row(NATIVE, "what only one format has: tendons, lights, what is copied", 1e-6),
     Row("mass matrix", "at 5 configurations, relative to the largest element", 1e-4),
     Row("gravity", "joint forces at 5 configurations, relative to the largest", 1e-4),

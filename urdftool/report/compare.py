@@ -106,7 +106,7 @@ def summarize(names: tuple[str, str], changes: Sequence[Difference]) -> str:
     """Summarize the number of changes in one line."""
     pair = f"{escape_controls(names[0])} → {escape_controls(names[1])}"
     if not changes:
-        return f"{pair}: the same robot"
+        return f"{pair}: no differences (meshes by their names, not by content)"
     parts = {(change.kind, change.new_name) for change in changes}
     return f"{pair}: {format_count(len(changes), 'change')} in {format_count(len(parts), 'part')}"
 
