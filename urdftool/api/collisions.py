@@ -22,6 +22,7 @@ def simplify_collisions(
     links: Iterable[str] = (),
     skip_links: Iterable[str] = (),
     keep_primitives: bool = True,
+    per_mesh: bool = False,
     mesh_dir: str | Path | None = None,
     uri: str = "auto",
     mesh_format: str = "stl",
@@ -40,6 +41,8 @@ def simplify_collisions(
         links: Links to process; if empty, all.
         skip_links: Links to skip.
         keep_primitives: Whether to keep existing primitive collisions.
+        per_mesh: Whether each mesh of a link has pieces of its own with the methods ``"auto"`` and
+            ``"cuts"``, too, which decompose the meshes of a link together.
         mesh_dir: Folder of the new meshes; None is a folder next to the output.
         uri: ``"package"``, ``"relative"``, ``"file"``, or ``"auto"``: the form that the robot uses.
         mesh_format: ``"stl"`` or ``"obj"``.
@@ -48,7 +51,7 @@ def simplify_collisions(
         overwrite: Whether to replace mesh files not written by urdftool.
 
     Returns:
-        The results of the meshes of each processed link, by link name.
+        The results of each processed link, by link name; one for each mesh if not together.
 
     Raises:
         ConfigError: A link or setting is unknown.
@@ -76,6 +79,7 @@ def simplify_collisions(
         tuple(list_words("links", links)),
         tuple(list_words("skip_links", skip_links)),
         keep_primitives,
+        per_mesh,
     )
     folder = None if mesh_dir is None else Path(mesh_dir)
     place = Place(Path(output), folder, uri, mesh_format, overwrite=overwrite)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from ..source.access import list_companions
 from ..storage import DiskCache, cache_key
-from .compute import Result, Task, parse_result
+from .compute import Result, Task, Vector, list_mesh_files, parse_result
 
-_VERSION = 12
+_VERSION = 13
 """Version of the results; increment it when the same settings give another result."""
 
 
@@ -20,16 +22,25 @@ def read_cached_result(cache: DiskCache, key: str) -> Result | None:
 
 
 def compute_key(task: Task) -> str | None:
-    """Return the key of a task's result; None if its file cannot be read."""
-    suffix = task.path.suffix.lower()
-    facts = [suffix, list(task.scale), task.settings.as_dict()]
-    if suffix in (".gltf", ".glb"):
-        facts.append(task.gltf_up)
+    """Return the key of a task's result; None if one of its files cannot be read."""
+    facts: list[object] = [_list_facts(task, task.path, task.scale), task.settings.as_dict()]
+    for other in task.others:
+        facts.append([*_list_facts(task, other.path, other.scale), other.pose])
     try:
-        inputs = [task.path.read_bytes()]
-        if suffix == ".gltf":  # buffers are separate files
-            for path in list_companions(task.path, "*.bin"):
-                inputs += [path.name.encode(), path.read_bytes()]
+        inputs = [data for path in list_mesh_files(task) for data in _read_inputs(path)]
     except OSError:
         return None
     return cache_key(_VERSION, facts, inputs)
+
+
+def _list_facts(task: Task, path: Path, scale: Vector) -> list[object]:
+    suffix = path.suffix.lower()
+    return [suffix, list(scale), task.gltf_up if suffix in (".gltf", ".glb") else ""]
+
+
+def _read_inputs(path: Path) -> list[bytes]:
+    inputs = [path.read_bytes()]
+    if path.suffix.lower() == ".gltf":  # buffers are separate files
+        for buffer in list_companions(path, "*.bin"):
+            inputs += [buffer.name.encode(), buffer.read_bytes()]
+    return inputs

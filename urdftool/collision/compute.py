@@ -11,6 +11,7 @@ from typing import Any
 
 from ..diagnostic import Diagnostic
 from ..errors import MeshError, UrdftoolError
+from ..model.pose import Pose
 from ..source.description import GltfUp
 from .notes import COACD_KILLED, pack_note, unpack_note
 from .piece import Piece, parse_piece
@@ -20,20 +21,42 @@ Vector = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
+class PlacedMesh:
+    """Another mesh of a link.
+
+    Attributes:
+        path: The mesh file.
+        scale: Factors, as URDF's ``<mesh scale>``.
+        pose: Its pose in the frame of the first mesh.
+    """
+
+    path: Path
+    scale: Vector
+    pose: Pose
+
+
+@dataclass(frozen=True)
 class Task:
-    """A mesh to simplify; the same task always has the same result.
+    """A mesh, or the meshes of a link, to simplify; the same task always has the same result.
 
     Attributes:
         path: The mesh file.
         scale: Factors, as URDF's ``<mesh scale>``.
         settings: Method and limits.
         gltf_up: Up axis of a glTF file.
+        others: Meshes that are simplified together with it.
     """
 
     path: Path
     scale: Vector = (1.0, 1.0, 1.0)
     settings: Settings = field(default_factory=Settings)
     gltf_up: GltfUp = "y"
+    others: tuple[PlacedMesh, ...] = ()
+
+
+def list_mesh_files(task: Task) -> list[Path]:
+    """Return the mesh files of a task."""
+    return [task.path, *(other.path for other in task.others)]
 
 
 MEASURES = (
@@ -46,13 +69,13 @@ MEASURES = (
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """Collision geometry of a mesh.
+    """Collision geometry of a mesh, or of the meshes of a link.
 
     Attributes:
         method: The method that was used.
-        pieces: Pieces in the mesh's frame.
+        pieces: Pieces in the frame of the mesh, or of the first one.
         measures: Quality, as :meth:`Measures.as_dict`.
-        before: ``triangles`` and ``vertices`` of the mesh.
+        before: ``triangles`` and ``vertices`` of the meshes.
         diagnostics: Repairs of the mesh (info), and failures and substitutes (warning).
         seconds: Computation time [s].
         cached: Whether it comes from the cache.
@@ -127,16 +150,19 @@ def _read_numbers(table: Mapping[str, Any], names: Sequence[str]) -> dict[str, A
 
 
 def compute(task: Task, cores: int = 1) -> Result:
-    """Simplify a mesh, independently of the number of cores.
+    """Simplify a mesh, or the meshes of a link, independently of the number of cores.
 
     Raises:
         UrdftoolError: The mesh cannot be read or simplified.
     """
     from .choose import choose
-    from .surface import read_surface
+    from .surface import merge_surfaces, read_surface
 
     begin = perf_counter()
     surface = read_surface(task.path, task.scale, task.gltf_up)
+    if task.others:
+        others = [(read_surface(o.path, o.scale, task.gltf_up), o.pose) for o in task.others]
+        surface = merge_surfaces(surface, others)
     try:
         choice = choose(surface, task.settings, cores)
     except MeshError as error:

@@ -29,6 +29,8 @@ _TOLERANCE = 0.05  # part of the error that dropping hull vertices may use
 _FINEST = 0.002  # relative tolerance of hulls below which vertices are not worth it
 _COVERED = 0.001  # distance outside all pieces, relative to the size, that is ignored
 _ENCLOSED = 0.02  # part of the area that is enclosed, up to which a small mesh is cut itself
+_SEEN = 0.25  # part of the goal below which a point is on the surface of a part
+_HELPS = 0.9  # part of the error that a repetition must give to be worth its pieces
 _SMALL = 1000  # triangles of such a mesh
 
 
@@ -105,14 +107,14 @@ class PlaneCutter:
             parts = min(parts, again, key=_estimate)
         best = self._finish(parts, max_error)
         for _ in range(self.effort.retries):
-            if best.measures.error <= max_error or not self._add_missed_probes(best):
+            if best.measures.error <= max_error or not self._add_missed_probes(best, goal):
                 break
             old = [self.partition.update_cost(part) for part in best.parts]
             parts = self._search(old, most, goal, dense=True)
             if _estimate(parts) >= _estimate(old):
                 break
             found = self._finish(parts, max_error)
-            if found.measures.error >= best.measures.error:
+            if found.measures.error > max(_HELPS * best.measures.error, max_error):
                 break
             best = found
         return best
@@ -125,15 +127,19 @@ class PlaneCutter:
         found = partition.join(found, goal, most)
         return partition.refine(found, goal, self.effort.rounds, dense=dense)
 
-    def _add_missed_probes(self, found: Decomposition) -> bool:
+    def _add_missed_probes(self, found: Decomposition, goal: float) -> bool:
         """Make probes of the points that are deeper than estimated; return whether there are any.
 
         A point may have been missed, or be deep in the union of parts but not in any one of them.
+        If the deepest ones are deep in no part, the pieces close a gap between two parts, which
+        cuts do not open.
         """
         points, reach = found.deviation.worst, found.deviation.depth
         if not len(points):
             return False
         estimate = np.max([compute_burial(part, points) for part in found.parts], axis=0)
+        if estimate[reach > _HELPS * reach.max()].max(initial=0.0) < _SEEN * goal:
+            return False
         extra = np.maximum(reach - estimate, 0)
         self.missed = np.concatenate([self.missed, points])
         self.extra = np.concatenate([self.extra, extra])

@@ -14,11 +14,17 @@ import numpy as np
 from ..errors import ConfigError, MeshError, UrdftoolError
 from ..geometry.link_extent import get_shape_points
 from ..model.elements import Collision, Link, Mesh, Robot, UnknownShape, Visual
+from ..model.pose import Pose, make_pose
 from ..suggestions import require_word, suggest_name
-from .compute import Task
+from .compute import PlacedMesh, Task
 from .settings import METHODS, QUALITIES, SOURCES, Settings
 
 Shape = Visual | Collision
+
+TOGETHER = ("auto", "cuts")
+"""Methods that simplify the meshes of a link together; the others give a result for each mesh."""
+
+_DIGITS = 9  # of the relative pose of meshes, so that equal links are computed once; chosen
 
 _NUMBERS = ("max-error", "threshold", "time-limit")
 _COUNTS = ("max-hulls", "max-vertices", "max-triangles", "count")
@@ -61,6 +67,7 @@ class CollisionOptions:
         only: Links to process; all if empty.
         skip: Links to leave unchanged.
         keep_primitives: Whether to keep collisions that are primitives.
+        per_mesh: Whether each mesh has pieces of its own with every method.
         table: The ``collision`` table of the configuration.
         path: File of that table.
     """
@@ -70,6 +77,7 @@ class CollisionOptions:
     only: tuple[str, ...] = ()
     skip: tuple[str, ...] = ()
     keep_primitives: bool = True
+    per_mesh: bool = False
     table: Mapping[str, Any] = field(default_factory=dict)
     path: str | None = None
     given: tuple[str, ...] = ()
@@ -109,8 +117,35 @@ def plan(robot: Robot, options: CollisionOptions) -> tuple[list[LinkPlan], list[
                 uses.append(Use(shape, _make_task(robot, shape, settings)))
             except UrdftoolError as error:
                 problems.append(error)
+        if settings.method in TOGETHER and not options.per_mesh:
+            uses = _unite_meshes(uses)
         plans.append(LinkPlan(index, link, source, list(_divide_count(robot, uses)), replaced))
     return plans, problems
+
+
+def _unite_meshes(uses: list[Use]) -> list[Use]:
+    """Return the shapes of a link, its meshes in one task, at the place of the first mesh."""
+    meshes = [use for use in uses if use.task is not None]
+    if len(meshes) < 2:
+        return uses
+    first = meshes[0]
+    assert first.task is not None
+    inverse = make_pose(first.shape.origin).invert()
+    others = tuple(
+        PlacedMesh(
+            use.task.path, use.task.scale, _round_pose(inverse @ make_pose(use.shape.origin))
+        )
+        for use in meshes[1:]
+        if use.task is not None
+    )
+    united = replace(first, task=replace(first.task, others=others))
+    return [united if use is first else use for use in uses if use is first or use.task is None]
+
+
+def _round_pose(pose: Pose) -> Pose:
+    x, y, z = ([round(value, _DIGITS) for value in row] for row in pose.rotation)
+    a, b, c = (round(value, _DIGITS) for value in pose.translation)
+    return Pose(((x[0], x[1], x[2]), (y[0], y[1], y[2]), (z[0], z[1], z[2])), (a, b, c))
 
 
 def _divide_count(robot: Robot, uses: Sequence[Use]) -> Iterator[Use]:

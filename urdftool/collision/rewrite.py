@@ -91,13 +91,22 @@ def _make_plain(path: Path) -> str:
     return name or "robot"
 
 
-def name_pieces(layout: Layout, results: Mapping[Task, Result]) -> None:
-    """Assign a file and a URI to each mesh piece, named after its source mesh and numbered."""
+def name_pieces(
+    layout: Layout, results: Mapping[Task, Result], links: Mapping[Task, str] | None = None
+) -> None:
+    """Assign a file and a URI to each mesh piece, numbered.
+
+    Args:
+        layout: Receives the files and names.
+        results: The results; their pieces are named after the mesh, or the link of several meshes.
+        links: Name of the first link of each task.
+    """
     taken: dict[str, int] = {}
     for task, result in results.items():
         if id(result) in layout.names:
             continue
-        stem = re.sub(r"[^A-Za-z0-9_.-]", "_", task.path.stem) or "mesh"
+        name = (links or {}).get(task, "") if task.others else task.path.stem
+        stem = re.sub(r"[^A-Za-z0-9_.-]", "_", name) or "mesh"
         taken[stem.casefold()] = count = taken.get(stem.casefold(), 0) + 1
         if count > 1:
             stem = f"{stem}-{count}"

@@ -94,7 +94,11 @@ def write_robot(
     layout = determine_layout(
         robot, place.target, place.mesh_dir, place.uri, f".{place.mesh_format}"
     )
-    name_pieces(layout, results)
+    links: dict[Task, str] = {}
+    for item in plans:
+        for task in collect_tasks([item]):
+            links.setdefault(task, item.link.name)
+    name_pieces(layout, results, links)
     seen = _list_visual_meshes(robot)
     if place.in_place:
         from .in_place import edit_sources

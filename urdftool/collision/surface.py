@@ -22,6 +22,7 @@ from ..geometry.topology import (
     weld,
 )
 from ..inertia.repair import drop_duplicates, orient
+from ..model.pose import Pose
 from ..source.description import GltfUp
 
 SLIVER = 1e-14
@@ -88,6 +89,38 @@ def read_surface(
     if prepared is None:
         raise MeshError("all faces of the mesh are degenerate; none has an area", path=path)
     return prepared
+
+
+def merge_surfaces(first: Prepared, others: Sequence[tuple[Prepared, Pose]]) -> Prepared:
+    """Merge the meshes of a link into one surface, in the frame of the first one.
+
+    Args:
+        first: The first mesh.
+        others: The others, each with its pose in that frame.
+
+    Raises:
+        MeshError: The meshes are too far apart.
+    """
+    vertices, faces, total = [first.vertices], [first.faces], len(first.vertices)
+    for surface, pose in others:
+        turn, shift = np.array(pose.rotation), np.array(pose.translation)
+        vertices.append(surface.vertices @ turn.T + shift)
+        faces.append(surface.faces + total)
+        total += len(surface.vertices)
+    every = [first, *(surface for surface, _ in others)]
+    points = np.concatenate(vertices)
+    extent = np.ptp(points, axis=0)
+    if not float(extent.max()) < FARTHEST:
+        raise MeshError(f"the meshes are {extent.max():.3g} m wide, which is not measured")
+    return Prepared(
+        points,
+        np.concatenate(faces),
+        sum(one.triangles for one in every),
+        sum(one.points for one in every),
+        all(one.closed for one in every),
+        float(np.linalg.norm(extent)),
+        tuple(note for one in every for note in one.notes),
+    )
 
 
 def prepare(vertices: Points, faces: Faces, *, notes: Sequence[Diagnostic] = ()) -> Prepared | None:

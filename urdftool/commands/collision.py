@@ -57,7 +57,7 @@ class _OrMesh(GroupedCommand):
 
 _GROUPS = {
     "What to do": "output in_place check",
-    "Geometry": "method quality max_error source only skip keep_primitives "
+    "Geometry": "method quality max_error per source only skip keep_primitives "
     "max_hulls max_vertices max_triangles threshold count cover",
     "Output": "style mesh_dir mesh_format uri spheres_file overwrite picture",
     "Performance": "jobs time_limit scheduler",
@@ -88,6 +88,13 @@ _GROUPS = {
 )
 @click.option(
     "--skip-link", "skip", multiple=True, metavar="NAME", help="Skip this link. Repeatable."
+)
+@click.option(
+    "--per",
+    type=click.Choice(("link", "mesh")),
+    help="Decompose the meshes of a link together, or each of them. --max-error and --max-hulls "
+    "are those of one result.  [default: link with --method auto and cuts; mesh with --in-place "
+    "of a xacro file]",
 )
 @click.option(
     "--keep-primitives/--replace-primitives",

@@ -71,15 +71,15 @@ _OPTIONS = (
         type=float,
         callback=_parse_positive,
         metavar="E",
-        help="Maximum distance between mesh and collision, as a fraction of the diagonal of the "
-        "mesh's bounding box.  [default: 0.05; fast 0.08, tight 0.03]",
+        help="Maximum distance between the meshes of a link, or a mesh, and the collision, as a "
+        "fraction of the diagonal of their bounding box.  [default: 0.05; fast 0.08, tight 0.03]",
     ),
     click.option(
         "--max-hulls",
         type=click.IntRange(1),
         metavar="N",
-        help="Maximum number of pieces per mesh.  [default: 16 for auto and cuts (fast 4, tight "
-        "32), unlimited for coacd and spheres]",
+        help="Maximum number of pieces per link or mesh.  [default: 16 for auto and cuts (fast 4, "
+        "tight 32), unlimited for coacd and spheres]",
     ),
     click.option(
         "--max-vertices",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from shlex import quote
 from typing import TYPE_CHECKING, Any
@@ -187,6 +187,7 @@ def _make_collision_options(
         values["only"],
         values["skip"],
         values["keep_primitives"],
+        values["per"] == "mesh",
         configuration.collision,
         configuration.path,
         list_given(ctx),
@@ -203,6 +204,10 @@ def _make_job(
 ) -> Job:
     place = _place(path, output, values)
     check_place(robot, place)
+    if place.in_place and robot.source is not None and robot.source.expansion is not None:
+        if values["per"] == "link":
+            raise click.UsageError("--in-place edits a xacro file --per mesh; use -o OUT")
+        options = replace(options, per_mesh=True)  # origins can be computed
     plans, problems = plan(robot, options)
     _refuse(console, problems)
     return Job(path, robot, plans, place, path if place.in_place else str(output))

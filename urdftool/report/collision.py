@@ -30,17 +30,18 @@ _HEAD = (
 
 @dataclass(frozen=True, eq=False)
 class Row:
-    """The result for a mesh of a link, or for a single mesh file.
+    """The result for a mesh or the meshes of a link, or for a single mesh file.
 
     Attributes:
         name: Name of the link, or of the mesh file.
         mesh: Path of the mesh file.
         scale: Scale factors.
         result: Result of the simplification.
-        max_error: Error limit, relative to the size of the mesh.
+        max_error: Error limit, relative to the size of the meshes.
         files: File names of its pieces; empty for a primitive.
         source: ``"visual"`` or ``"collision"``; empty for a single mesh file.
         requested: The requested method.
+        others: Paths of the meshes that were simplified together with it.
     """
 
     name: str
@@ -51,6 +52,7 @@ class Row:
     files: tuple[str, ...] = ()
     source: str = ""
     requested: str = "auto"
+    others: tuple[str, ...] = ()
 
     @property
     def within(self) -> bool:
@@ -64,6 +66,7 @@ class Row:
         return {
             **record,
             "mesh": self.mesh,
+            "others": list(self.others),
             "scale": list(self.scale),
             "method": result.method,
             "max_error": self.max_error,
@@ -122,6 +125,7 @@ def get_rows(written: Written, results: Mapping[Task, Result]) -> list[Row]:
             tuple(written.layout.names[id(results[use.task])]),
             item.source,
             use.task.settings.method,
+            tuple(str(other.path) for other in use.task.others),
         )
         for item in written.plans
         for use in item.uses
@@ -203,12 +207,14 @@ def summarize(report: Report) -> str:
     rows = report.rows
     pieces = sum(len(row.result.pieces) for row in rows)
     missed = sum(not row.within for row in rows)
-    cached = sum(row.result.cached for row in rows)
-    words = [f"{len(rows)} mesh{'es' * (len(rows) != 1)} to {pieces} piece{'s' * (pieces != 1)}"]
+    meshes = sum(1 + len(row.others) for row in rows)
+    cached = sum((1 + len(row.others)) * row.result.cached for row in rows)
+    words = [f"{meshes} mesh{'es' * (meshes != 1)} to {pieces} piece{'s' * (pieces != 1)}"]
     if report.output and not rows:
         words.append("no link has a mesh to work on; the robot is as it was")
     if missed:
-        words.append(f"{missed} not within the error")
+        what = f"link{'s' * (missed != 1)} " if meshes > len(rows) else ""
+        words.append(f"{missed} {what}not within the error")
     if cached:
         words.append(f"{cached} from the cache")
     where = f" -> {report.output}" if report.output else ""
@@ -218,6 +224,8 @@ def summarize(report: Report) -> str:
 def _label(row: Row) -> str:
     if not row.source:
         return row.name
+    if row.others:
+        return f"{row.name} ({1 + len(row.others)} meshes)"
     scale = format_scale(row.scale)
     return f"{row.name} {Path(row.mesh).name}{' ' + scale if scale else ''}"
 

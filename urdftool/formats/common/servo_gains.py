@@ -110,6 +110,23 @@ def choose_position_gain(
     return Gain(value, is_bounded, force, load.force / value, damping)
 
 
+def compute_damping(gain: Gain, load: JointLoad, timestep: float = TIMESTEP) -> float:
+    """Compute the damping of a position servo [N·m·s/rad or N·s/m].
+
+    It is critical for the inertia that the joint moves while the other joints are free, for which
+    MuJoCo computes ``dampratio``, or that of the gain.
+
+    Args:
+        gain: From :func:`choose_position_gain`.
+        load: What the joint moves, with its armature.
+        timestep: Physics time step [s], for a joint that moves nothing with mass.
+    """
+    if gain.damping is not None:
+        return gain.damping
+    inertia = load.free or load.inertia or gain.value * timestep**2
+    return 2 * math.sqrt(gain.value * inertia)
+
+
 def choose_velocity_gain(
     kind: str,
     effort: float | None,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -22,6 +21,7 @@ from ..common.servo_gains import (
     Gain,
     choose_position_gain,
     choose_velocity_gain,
+    compute_damping,
     drop_unlimited,
     report_gains,
 )
@@ -153,7 +153,7 @@ def _make_servo(
     else:
         gain = choose_position_gain(kind, effort, load, timestep)
         stiffness = gain.value
-        damping = 2 * math.sqrt(stiffness * (load.inertia or stiffness * timestep**2))
+        damping = compute_damping(gain, load, timestep)
     assumed[joint.name] = gain
     return JointActuator(
         None, joint.name, joint.name, drive.kind, gain=gain.value, bias=(0.0, -stiffness, -damping)
