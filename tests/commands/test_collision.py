@@ -9,10 +9,13 @@ import time
 from pathlib import Path
 
 import jsonschema
+import numpy as np
 import pytest
 
 from tests.collision.shapes import l_profile, noisy, stl
 from tests.conftest import FIXTURES, ROOT
+from urdftool import load
+from urdftool.geometry.link_extent import get_shape_points
 
 MESHES = FIXTURES / "meshes"
 
@@ -362,3 +365,61 @@ def test_a_cluster_gives_the_same_bytes(urdftool, write, bracket, box):
     assert Path("alone.urdf").read_text().replace("m1/", "m2/") == Path("many.urdf").read_text()
     for name in os.listdir("m1") if os.path.exists("m1") else ():
         assert Path(f"m1/{name}").read_bytes() == Path(f"m2/{name}").read_bytes()
+
+
+TWO = """<robot name="r">
+  <link name="a">
+    <visual><geometry><sphere radius="0.01"/></geometry></visual>
+    <visual><origin xyz="0 0 1"/><geometry><mesh filename="meshes/bracket.stl"/></geometry></visual>
+    <visual>
+      <origin xyz="0.5 0 1" rpy="0 0 1.5707963267948966"/>
+      <geometry><mesh filename="meshes/box.stl"/></geometry>
+    </visual>
+  </link>
+</robot>
+"""
+
+
+def _list_pieces(robot):
+    return [one for one in robot.links[0].collisions if one.geometry.element.tag != "sphere"]
+
+
+def test_the_meshes_of_a_link_are_decomposed_together(urdftool, write, bracket, box):
+    path = write("r.urdf", TWO)
+    done = urdftool("collision", path, "-o", "out.urdf", "--no-cache", "--format", "json")
+    assert done.code == 0, done.err
+    assert "2 meshes to" in done.err
+    found = json.loads(done.out)
+    jsonschema.validate(found, json.loads((ROOT / "docs/schemas/collision.json").read_text()))
+    (part,) = found["results"][0]["parts"]
+    assert [Path(name).name for name in (part["mesh"], *part["others"])] == [
+        "bracket.stl",
+        "box.stl",
+    ]
+    made = urdftool("collision", "out.urdf", "--check", "--format", "json")
+    (measured,) = json.loads(made.out)["results"][0]["links"]
+    assert measured["measures"]["error"] <= part["max_error"]
+    new = load("out.urdf")
+    points = np.concatenate([get_shape_points(new, one) for one in _list_pieces(new)])
+    assert points.max(axis=0)[0] == pytest.approx(0.6, abs=0.02)  # the box, turned
+    assert [one.geometry.element.tag for one in new.links[0].collisions].count("sphere") == 1
+
+
+def test_equal_links_are_computed_once_and_named_by_the_first(urdftool, write, bracket, box):
+    again = TWO.replace('name="a"', 'name="b"').split("\n", 1)[1].removesuffix("</robot>\n")
+    joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>\n'
+    path = write("r.urdf", TWO.removesuffix("</robot>\n") + again + joint)
+    words = ("--max-error", "0.01", "--max-hulls", "4", "--quality", "fast", "--no-cache")
+    done = urdftool("collision", path, "-o", "out.urdf", "--method", "cuts", *words)
+    assert done.code == 0, done.err
+    assert {name.split("_")[0] for name in os.listdir("out_collision")} == {"a"}
+    done = urdftool("collision", path, "-o", "each.urdf", "--per", "mesh", *words)
+    assert done.code == 0, done.err
+    assert "4 meshes to" in done.err
+    assert all(name.startswith("bracket") for name in os.listdir("each_collision"))
+
+
+def test_xacro_in_place_is_edited_for_each_mesh(urdftool, write, bracket, box):
+    path = write("r.urdf.xacro", TWO)
+    done = urdftool("collision", path, "--in-place", "--per", "link", "--no-cache")
+    assert (done.code, "--per mesh" in done.err) == (2, True)

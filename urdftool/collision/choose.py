@@ -15,14 +15,25 @@ import numpy as np
 
 from ..diagnostic import Diagnostic
 from ..errors import MeshError
+from ..geometry.mesh import Points
 from ..geometry.topology import find_edges, find_used_vertices, label_bodies
 from .convex import compute_capped_hull, thicken
 from .cut import Cutter
 from .cuts import PlaneCutter
 from .decimate import decimate
 from .decompose import DecompositionError
+from .distance import spread
+from .exterior import BALL
 from .measure import Measures, ReferenceSurface, compute_hull_error, measure
-from .notes import FLAT_MESH, HULL_INSTEAD, HULL_OF_ENGINES, MORE_PIECES, SPHERES, make_note
+from .notes import (
+    CLOSED_GAP,
+    FLAT_MESH,
+    HULL_INSTEAD,
+    HULL_OF_ENGINES,
+    MORE_PIECES,
+    SPHERES,
+    make_note,
+)
 from .piece import PRIMITIVES, Piece, make_mesh_piece
 from .primitives import fit_primitives, measure_primitive_distance
 from .settings import Settings
@@ -34,6 +45,7 @@ PLATE = 0.002
 """Thickness given to a flat mesh, relative to its size. Chosen, no source."""
 
 # chosen, no source, where a line gives none
+_BODY_SAMPLES = 2000  # of a body, to which primitives are fitted
 _MEASURED = 3  # number of best fitting primitives that are measured
 _SHARE = 0.1  # part of the error that dropping hull vertices may use
 _COARSER = 3.0  # ratio of CoACD's second threshold to the first; chosen, no source
@@ -117,7 +129,12 @@ def _choose_automatically(
         tried += _try_hulls(target, settings, notes)
     best = min(tried, key=lambda choice: (choice.measures.error, len(choice.pieces)))
     useful = _HELPS * best.measures.error
-    notes[:] = [n for n in notes if n.code != MORE_PIECES or n.data["error"] < useful]
+    notes[:] = [
+        note
+        for note in notes
+        if (note.code != MORE_PIECES or note.data["error"] < useful)
+        and (note.code != CLOSED_GAP or best.method == "cuts")
+    ]
     return best
 
 
@@ -174,15 +191,47 @@ def _try_hulls(
 def _try_bodies(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic], cutter: PlaneCutter
 ) -> Iterator[Choice]:
-    """Yield one hull per exterior body, if there are several but not too many."""
+    """Yield a primitive or a hull per exterior body, if there are several but not too many."""
+    hulls: list[Piece] = []
+    mixed: list[Piece] = []
+    for corners, hull in _list_bodies(target, settings, cutter):
+        hulls.append(hull)
+        mixed.append(_fit_primitive(corners, settings.max_error * target.size) or hull)
+    if len(hulls) < 2:
+        return
+    primitives = [piece for piece in mixed if piece.is_primitive]
+    if primitives:
+        method = "primitive" if len(primitives) == len(mixed) else "hull"
+        yield Choice(method, mixed, measure(target, mixed))
+    yield Choice("hull", hulls, measure(target, hulls))
+
+
+def _fit_primitive(corners: Points, limit: float) -> Piece | None:
+    """Return the primitive closest to a body, given by its triangles; None beyond a limit [m]."""
+    points = spread(corners, _BODY_SAMPLES).points
+    found = [
+        (float(np.abs(measure_primitive_distance(piece, points)).max()), number, piece)
+        for number, piece in enumerate(fit_primitives(points))
+    ]
+    off, _, piece = min(found, key=lambda one: one[:2])
+    return piece if off <= limit else None
+
+
+def _list_bodies(
+    target: ReferenceSurface, settings: Settings, cutter: PlaneCutter
+) -> list[tuple[Points, Piece]]:
+    """Return triangles [m] and hull of each exterior body; none if there are too many or too poor.
+
+    A body may be a decal or too small to matter, and has no hull then.
+    """
     surface = target.surface
     labels = label_bodies(len(surface.faces), find_edges(surface.faces))
     count = int(labels.max()) + 1
     if count < 2:
-        return
+        return []
     seen = target.exterior.is_touchable(surface.vertices)
     limit = settings.max_error * target.size
-    pieces: list[Piece] = []
+    bodies: list[tuple[Points, Piece]] = []
     for label in range(count):
         used = find_used_vertices(surface.faces[labels == label], len(surface.vertices))
         if not seen[used].any():
@@ -190,17 +239,16 @@ def _try_bodies(
         points = surface.vertices[used]
         if float(np.linalg.norm(np.ptp(points, axis=0))) < _SHARE * limit:
             continue
-        if len(pieces) == settings.most:
-            return
+        if len(bodies) == settings.most:
+            return []
         part = cutter.partition.make_whole(points, np.zeros((0, 3), np.int64))
         if part is None:  # a decal, or an isolated face
             continue
         if part.cost > _HULL_WITHIN * limit:
-            return
+            return []
         vertices, faces = compute_capped_hull(points, settings.max_vertices, _SHARE * limit)
-        pieces.append(make_mesh_piece(vertices, faces))
-    if len(pieces) > 1:
-        yield Choice("hull", pieces, measure(target, pieces))
+        bodies.append((surface.corners[labels == label], make_mesh_piece(vertices, faces)))
+    return bodies
 
 
 def _try_sheets(
@@ -238,7 +286,12 @@ def _try_plane_cuts(
             yield from _try_hulls(target, settings, notes)
         return
     error = found.measures.error
-    if error > settings.max_error:
+    if error > settings.max_error and cutter.closes_gap(found, settings.max_error):
+        depth = 1000 * found.measures.buried
+        text = f"The pieces close a gap, {depth:.3g} mm deep; more pieces do not open it."
+        gap = {"depth": found.measures.buried, "width": 2 * BALL * target.size}
+        notes.append(make_note(CLOSED_GAP, text, gap))
+    elif error > settings.max_error:
         more = 2 * settings.most
         forecast = cutter.forecast_error(found, more, settings.max_error)
         text = f"{more} pieces would give an error of about {forecast:.1%}."

@@ -43,6 +43,24 @@ class Decomposition:
     parts: list[Part]
     deviation: Deviation
 
+    def estimate_burial(self, points: Points) -> Points:
+        """Return the largest depth [m] of each point in a part."""
+        return np.max([compute_burial(part, points) for part in self.parts], axis=0)
+
+    def closes_gap(self, goal: float) -> bool:
+        """Tell whether the error is the depth of a gap between parts that the pieces close.
+
+        The deepest points are then deep in no part, and more cuts do not open the gap.
+
+        Args:
+            goal: Cost [m] up to which the parts were cut.
+        """
+        points, reach = self.deviation.worst, self.deviation.depth
+        if not len(points) or self.measures.buried < self.measures.hausdorff:
+            return False
+        deepest = points[reach > _HELPS * reach.max()]
+        return float(self.estimate_burial(deepest).max()) < _SEEN * goal
+
 
 class PlaneCutter:
     """Convex decomposition of one mesh by planes; shared data is computed once."""
@@ -107,7 +125,9 @@ class PlaneCutter:
             parts = min(parts, again, key=_estimate)
         best = self._finish(parts, max_error)
         for _ in range(self.effort.retries):
-            if best.measures.error <= max_error or not self._add_missed_probes(best, goal):
+            if best.measures.error <= max_error or best.closes_gap(goal):
+                break
+            if not self._add_missed_probes(best):
                 break
             old = [self.partition.update_cost(part) for part in best.parts]
             parts = self._search(old, most, goal, dense=True)
@@ -127,24 +147,24 @@ class PlaneCutter:
         found = partition.join(found, goal, most)
         return partition.refine(found, goal, self.effort.rounds, dense=dense)
 
-    def _add_missed_probes(self, found: Decomposition, goal: float) -> bool:
+    def _add_missed_probes(self, found: Decomposition) -> bool:
         """Make probes of the points that are deeper than estimated; return whether there are any.
 
         A point may have been missed, or be deep in the union of parts but not in any one of them.
-        If the deepest ones are deep in no part, the pieces close a gap between two parts, which
-        cuts do not open.
         """
         points, reach = found.deviation.worst, found.deviation.depth
         if not len(points):
             return False
-        estimate = np.max([compute_burial(part, points) for part in found.parts], axis=0)
-        if estimate[reach > _HELPS * reach.max()].max(initial=0.0) < _SEEN * goal:
-            return False
+        estimate = found.estimate_burial(points)
         extra = np.maximum(reach - estimate, 0)
         self.missed = np.concatenate([self.missed, points])
         self.extra = np.concatenate([self.extra, extra])
         self.partition = self._make_partition()
         return True
+
+    def closes_gap(self, found: Decomposition, max_error: float) -> bool:
+        """Tell whether pieces exceed an error only because they close a gap."""
+        return found.closes_gap(_GOAL * max_error * self.target.size)
 
     def forecast_error(self, found: Decomposition, most: int, max_error: float) -> float:
         """Estimate the error with another number of pieces, from the one that was measured."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..collision.compute import Result, Task, format_scale
-from ..collision.notes import MORE_PIECES, SHOWN
+from ..collision.notes import CLOSED_GAP, MORE_PIECES, SHOWN
 from ..collision.rewrite import format_geometry_tag
 from ..collision.robot import Written
 from .tables import render_table
@@ -176,6 +176,12 @@ def _format_advice(row: Row) -> str:
         if note.code == MORE_PIECES:
             pieces, error = note.data["pieces"], note.data["error"]
             return f"--max-hulls {pieces} would give about {error:.1%}"
+        if note.code == CLOSED_GAP:
+            width = format_millimeters(note.data["width"])
+            return (
+                f"the pieces close a gap of this depth that is over {width} mm wide; more pieces "
+                "do not open it"
+            )
     if row.result.method == "simplify":
         return "try more --max-triangles"
     if row.requested == "coacd":
@@ -233,7 +239,7 @@ def _label(row: Row) -> str:
 def _format_cells(row: Row) -> tuple[str, ...]:
     result, measures = row.result, row.result.measures
     kinds = {piece.kind for piece in result.pieces}
-    what = kinds.pop() if result.method == "primitive" else result.method
+    what = "+".join(sorted(kinds)) if result.method == "primitive" else result.method
     seconds = "cached" if result.cached else f"{result.seconds:.1f}"
     return (
         what,
