@@ -286,7 +286,7 @@ def _try_plane_cuts(
             yield from _try_hulls(target, settings, notes)
         return
     error = found.measures.error
-    if error > settings.max_error and cutter.closes_gap(found, settings.max_error):
+    if error > settings.max_error and cutter.has_closed_gap(found, settings.max_error):
         depth = 1000 * found.measures.buried
         text = f"The pieces close a gap, {depth:.3g} mm deep; more pieces do not open it."
         gap = {"depth": found.measures.buried, "width": 2 * BALL * target.size}

@@ -47,7 +47,7 @@ class Decomposition:
         """Return the largest depth [m] of each point in a part."""
         return np.max([compute_burial(part, points) for part in self.parts], axis=0)
 
-    def closes_gap(self, goal: float) -> bool:
+    def has_closed_gap(self, goal: float) -> bool:
         """Tell whether the error is the depth of a gap between parts that the pieces close.
 
         The deepest points are then deep in no part, and more cuts do not open the gap.
@@ -125,7 +125,7 @@ class PlaneCutter:
             parts = min(parts, again, key=_estimate)
         best = self._finish(parts, max_error)
         for _ in range(self.effort.retries):
-            if best.measures.error <= max_error or best.closes_gap(goal):
+            if best.measures.error <= max_error or best.has_closed_gap(goal):
                 break
             if not self._add_missed_probes(best):
                 break
@@ -162,9 +162,9 @@ class PlaneCutter:
         self.partition = self._make_partition()
         return True
 
-    def closes_gap(self, found: Decomposition, max_error: float) -> bool:
+    def has_closed_gap(self, found: Decomposition, max_error: float) -> bool:
         """Tell whether pieces exceed an error only because they close a gap."""
-        return found.closes_gap(_GOAL * max_error * self.target.size)
+        return found.has_closed_gap(_GOAL * max_error * self.target.size)
 
     def forecast_error(self, found: Decomposition, most: int, max_error: float) -> float:
         """Estimate the error with another number of pieces, from the one that was measured."""
