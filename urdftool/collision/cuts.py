@@ -119,13 +119,14 @@ class PlaneCutter:
         if self.whole is None:
             return None
         goal = _GOAL * max_error * self.target.size
+        several = self.target.surface.meshes > 1  # gaps between them stay closed
         parts = self._search([self.whole], most, goal, dense=False)
         if _estimate(parts) > goal and self.effort.retries:
             again = self._search([self.whole], most, goal, dense=True)
             parts = min(parts, again, key=_estimate)
         best = self._finish(parts, max_error)
         for _ in range(self.effort.retries):
-            if best.measures.error <= max_error or best.has_closed_gap(goal):
+            if best.measures.error <= max_error or (several and best.has_closed_gap(goal)):
                 break
             if not self._add_missed_probes(best):
                 break
@@ -134,7 +135,8 @@ class PlaneCutter:
             if _estimate(parts) >= _estimate(old):
                 break
             found = self._finish(parts, max_error)
-            if found.measures.error > max(_HELPS * best.measures.error, max_error):
+            error, before = found.measures.error, best.measures.error
+            if error >= before or (several and error > max(_HELPS * before, max_error)):
                 break
             best = found
         return best

@@ -45,6 +45,7 @@ class Prepared:
         closed: Whether the surface bounds a solid.
         size: Diagonal [m] of the bounding box, to which errors are relative.
         notes: Defects and repairs.
+        meshes: Number of meshes that are merged in it.
     """
 
     vertices: Points
@@ -54,6 +55,7 @@ class Prepared:
     closed: bool
     size: float
     notes: tuple[Diagnostic, ...]
+    meshes: int = 1
 
     @property
     def corners(self) -> Points:
@@ -120,6 +122,7 @@ def merge_surfaces(first: Prepared, others: Sequence[tuple[Prepared, Pose]]) -> 
         all(one.closed for one in every),
         float(np.linalg.norm(extent)),
         tuple(note for one in every for note in one.notes),
+        len(every),
     )
 
 
