@@ -45,7 +45,7 @@ class Decomposition:
 
     def estimate_burial(self, points: Points) -> Points:
         """Return the largest depth [m] of each point in a part."""
-        return np.max([compute_burial(part, points) for part in self.parts], axis=0)
+        return np.asarray(np.max([compute_burial(part, points) for part in self.parts], axis=0))
 
     def has_closed_gap(self, goal: float) -> bool:
         """Tell whether the error is the depth of a gap between parts that the pieces close.
