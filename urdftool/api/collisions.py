@@ -9,6 +9,7 @@ from ..arguments import check_arguments
 from ..collision.compute import Result
 from ..collision.settings import Settings
 from ..model.elements import Robot
+from ..suggestions import require_word
 from .places import check_jobs, check_settings, list_words
 
 
@@ -22,7 +23,7 @@ def simplify_collisions(
     links: Iterable[str] = (),
     skip_links: Iterable[str] = (),
     keep_primitives: bool = True,
-    per_mesh: bool = False,
+    per: str | None = None,
     mesh_dir: str | Path | None = None,
     uri: str = "auto",
     mesh_format: str = "stl",
@@ -41,8 +42,8 @@ def simplify_collisions(
         links: Links to process; if empty, all.
         skip_links: Links to skip.
         keep_primitives: Whether to keep existing primitive collisions.
-        per_mesh: Whether each mesh of a link has pieces of its own with the methods ``"auto"`` and
-            ``"cuts"``, too, which decompose the meshes of a link together.
+        per: ``"link"`` or ``"mesh"``: whether the methods ``"auto"`` and ``"cuts"`` decompose the
+            meshes of a link together, or each of them; None is the link.
         mesh_dir: Folder of the new meshes; None is a folder next to the output.
         uri: ``"package"``, ``"relative"``, ``"file"``, or ``"auto"``: the form that the robot uses.
         mesh_format: ``"stl"`` or ``"obj"``.
@@ -63,12 +64,14 @@ def simplify_collisions(
     from ..collision.links import CollisionOptions, plan
     from ..collision.parallel import compute_all
     from ..collision.robot import Place, check_place, collect_tasks, write_robot
-    from ..collision.settings import Settings
+    from ..collision.settings import PER, Settings
     from ..errors import ModelError, UrdftoolError
     from ..extras import require
     from ..storage import DiskCache, cache_folder
 
     check_jobs(jobs)
+    if per is not None:
+        require_word("per", per, PER)
     check_settings(settings, Settings)
     require("simplify_collisions", "scipy", "manifold3d")
     if robot.source is None:
@@ -79,7 +82,7 @@ def simplify_collisions(
         tuple(list_words("links", links)),
         tuple(list_words("skip_links", skip_links)),
         keep_primitives,
-        per_mesh,
+        per == "mesh",
     )
     folder = None if mesh_dir is None else Path(mesh_dir)
     place = Place(Path(output), folder, uri, mesh_format, overwrite=overwrite)

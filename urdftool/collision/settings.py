@@ -14,6 +14,9 @@ SOURCES = ("visual", "collision")
 URIS = ("auto", "package", "relative", "file")
 """Forms of the URIs of new meshes; ``auto`` is that of the meshes of the robot."""
 
+PER = ("link", "mesh")
+"""What a result is for, with the methods ``auto`` and ``cuts``."""
+
 MESH_FORMATS = ("stl", "obj")
 
 METHODS = ("auto", "primitive", "hull", "cuts", "coacd", "spheres", "simplify")

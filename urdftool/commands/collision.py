@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from ..collision.settings import MESH_FORMATS, SOURCES, URIS
+from ..collision.settings import MESH_FORMATS, PER, SOURCES, URIS
 from ..console import Console
 from .collision_options import (
     add_settings_options,
@@ -91,7 +91,7 @@ _GROUPS = {
 )
 @click.option(
     "--per",
-    type=click.Choice(("link", "mesh")),
+    type=click.Choice(PER),
     help="Decompose the meshes of a link together, or each of them. --max-error and --max-hulls "
     "are those of one result.  [default: link with --method auto and cuts; mesh with --in-place "
     "of a xacro file]",
