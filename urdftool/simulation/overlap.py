@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import UrdftoolError
 from ..inertia.winding import Boxes, compute_winding_numbers, sort_into_boxes
-from ..model.elements import Collision, Mesh, Robot, Visual
+from ..model.elements import Collision, Mesh, Plane, Robot, Visual
 from ..model.pose import Pose, make_pose
 from .mesh_cache import compute_once, load_triangles
 from .recording import Array
@@ -55,6 +55,8 @@ def measure_triangle_penetration(
 ) -> float | None:
     """Measure the penetration depth of two links by triangles [m]; None if a mesh cannot be read.
 
+    Planes, which have no triangles, are left out.
+
     Args:
         robot: The robot, read from a description.
         poses: Poses of the two links by name, in one frame.
@@ -67,6 +69,7 @@ def measure_triangle_penetration(
             [
                 (_make_surface(robot, shape), poses[name] @ make_pose(shape.origin))
                 for shape in robot.link[name].collisions
+                if not isinstance(shape.geometry, Plane)
             ]
             for name in (one, other)
         )

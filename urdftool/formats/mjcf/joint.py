@@ -84,8 +84,12 @@ def _build_single(
     if limits is not None and limits[0] < limits[1] and all(map(math.isfinite, limits)):
         element.set("range", format_numbers_text(limits))
     effort = get_effort(joint)
-    actuators = [a for a in structure.robot.joint_actuators if a.joint == joint.name]
-    if effort is not None and all(actuator.force_range is None for actuator in actuators):
+    forces = [
+        abs(one.gear) * max(map(abs, one.force_range))
+        for one in structure.robot.joint_actuators
+        if one.joint == joint.name and one.force_range is not None
+    ]
+    if effort is not None and all(force > effort for force in forces):
         element.set("actuatorfrcrange", format_numbers_text((-effort, effort)))
     for what, text, severity in _limit_losses(joint):
         place = joint.place if joint.limit is None else joint.limit.place

@@ -165,7 +165,8 @@ def _get_pose(structure: Structure, link: str) -> Pose:
 
 
 def build_loop_equalities(structure: Structure) -> Iterator[etree._Element]:
-    """Yield ``<connect>`` and ``<weld>`` for each equality of a plan."""
+    """Yield ``<connect>`` and ``<weld>`` for each equality of a plan; MJCF has its own softness."""
+    softness = {} if structure.robot.format == "mjcf" else STIFF
     for closure in structure.robot.closures:
         bodies = {"body1": structure.get_body_name(closure.parent)}
         other = closure.child
@@ -176,7 +177,7 @@ def build_loop_equalities(structure: Structure) -> Iterator[etree._Element]:
             attributes["anchor"] = format_numbers_text(make_pose(closure.origin).translation)
         if not closure.is_active:
             attributes["active"] = "false"
-        yield etree.Element(closure.type, {**attributes, **STIFF})
+        yield etree.Element(closure.type, {**attributes, **softness})
 
 
 def _is_planar(structure: Structure, closure: Closure, axis: Vector) -> bool:

@@ -48,10 +48,16 @@ def add_native(context: Context, robot: Robot) -> None:
     text = _parse_text(context)
     robot.native = [*_list_sections(context, text), *_list_parts(context, text)]
     _mark_held(robot)
+    setting = "created" if _creates_elements(text) else "setting"
     for root in text.roots:
         for section in root.children:
             if section.tag in COPIED:
-                _report_section(context, section)
+                _report_section(context, section, setting)
+
+
+def _creates_elements(text: _Text) -> bool:
+    """Tell whether a model makes elements from others; its sections are then not copied."""
+    return any(element.tag in _CREATING for element in text.lines.values())
 
 
 def _mark_held(robot: Robot) -> None:
@@ -100,7 +106,7 @@ def _get_line(element: Element) -> int:
 
 def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
     """Yield the elements of the sections that are copied, and their default classes."""
-    if any(element.tag in _CREATING for element in text.lines.values()):
+    if _creates_elements(text):
         return
     has_reference = any(row["ref"] for row in context.list_rows("joint"))
     for tag in COPIED:
@@ -230,6 +236,11 @@ def _is_of_robot(context: Context, tag: str, number: int, row: Row) -> bool:
 _TEXTS = {
     "attribute": ("attributes are not read", Severity.WARNING),
     "setting": ("settings that only MuJoCo has are not read", Severity.WARNING),
+    "created": (
+        "settings that only MuJoCo has are not read, nor copied from a model with <attach>, "
+        "<replicate>, <composite> or <flexcomp>",
+        Severity.WARNING,
+    ),
     "display": ("attributes for display and users are not read", Severity.INFO),
     "custom": ("numbers, texts and tuples of <custom> are not read", Severity.INFO),
     "keyframe": ("only joint positions of keyframes are read", Severity.INFO),
@@ -248,10 +259,16 @@ def _report(context: Context, code: str, name: str, written: Written) -> None:
     context.losses.add(code, what, name, written.place, severity)
 
 
-def _report_section(context: Context, section: Element) -> None:
-    """Report what the robot does not hold of a section that an export to MJCF copies."""
+def _report_section(context: Context, section: Element, setting: str) -> None:
+    """Report what the robot does not hold of a section that an export to MJCF may copy.
+
+    Args:
+        context: The compiled model.
+        section: The section.
+        setting: Code of its settings, by whether an export copies them.
+    """
     if section.tag in MERGED:
-        _report_merged(context, section)
+        _report_merged(context, section, setting)
         return
     for element in section.children:
         written = _get_place(context, element)
@@ -264,7 +281,7 @@ def _report_section(context: Context, section: Element) -> None:
         if read is None or element.tag == "pair":
             continue  # reported as a whole
         for attribute in sorted(element.attributes.keys() - read):
-            code = "keyframe" if section.tag == "keyframe" else "setting"
+            code = "keyframe" if section.tag == "keyframe" else setting
             code = "display" if attribute in _SHOWN_ONLY else code
             name = f"{attribute} of <{element.tag}> {element.get('name') or ''}".strip()
             _report(context, code, name, written)
@@ -273,12 +290,12 @@ def _report_section(context: Context, section: Element) -> None:
 _OPTIONS = frozenset(row.mjcf.partition(" ")[2] for row in OF_WORLD)
 
 
-def _report_merged(context: Context, section: Element) -> None:
+def _report_merged(context: Context, section: Element, setting: str) -> None:
     written = _get_place(context, section)
     if section.tag == "size":
         return  # memory and numbers of elements
     if section.tag == "option":
         for attribute in sorted(section.attributes.keys() - _OPTIONS):
-            _report(context, "setting", f"{attribute} of <option>", written)
+            _report(context, setting, f"{attribute} of <option>", written)
         return
     _report(context, "display", f"<{section.tag}>", written)

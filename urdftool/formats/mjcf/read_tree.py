@@ -81,10 +81,7 @@ def add_tree(context: Context, robot: Robot) -> None:
             base = get_origin_at(read_pose(row), context.get_place(row))
             robot.base = Base(context.get_place(row), bool(own), base)
             for joint in (context.list_rows("joint")[number] for number in own):
-                if any(joint[name] for name in ("damping", "frictionloss", "armature")):
-                    text = "damping, friction and armature of a free base are not read"
-                    place = _place(context, joint).place
-                    context.losses.add("base-dynamics", text, joint["name"], place)
+                _report_dynamics(context, joint)
         robot.links.append(link)
         if any(anchor):
             origin = get_origin_at(shift, context.get_place(row))
@@ -172,7 +169,10 @@ def _read_joint(context: Context, row: Row, number: int, parent: str, child: str
         x, y, z = row["axis"]
         joint.axis = Axis(written, (x, y, z))
         joint.type = "continuous" if kind == "revolute" and not limited else kind
-    joint.dynamics = _read_dynamics(context, row, written)
+    if kind == "floating":
+        _report_dynamics(context, row)
+    else:
+        joint.dynamics = _read_dynamics(context, row, written)
     joint.settings = _read_spring(row, written) | read_settings(row, JOINTS_OF_MUJOCO, written)
     effort = _compute_effort(context, row, number)
     velocity = _read_velocity(context, joint.name)
@@ -183,6 +183,13 @@ def _read_joint(context: Context, row: Row, number: int, parent: str, child: str
         low = None if bound is None else -bound
         joint.limit = Limit(written, low, bound, effort, velocity)
     return joint
+
+
+def _report_dynamics(context: Context, row: Row) -> None:
+    """Report the dynamics of a free joint, which the robot does not hold."""
+    if any(row[name] for name in ("damping", "frictionloss", "armature")):
+        text = "damping, friction and armature of free joints are not read"
+        context.losses.add("base-dynamics", text, row["name"], _place(context, row).place)
 
 
 def _read_velocity(context: Context, joint: str) -> float | None:

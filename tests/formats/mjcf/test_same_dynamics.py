@@ -1,4 +1,4 @@
-"""Export of an MJCF whose joints are not at the frames of bodies: MuJoCo must compute the same."""
+"""Export of an MJCF to MJCF: MuJoCo must compute the same, or the difference is reported."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,9 @@ import urdftool as api
 
 pytestmark = pytest.mark.library("mujoco")
 
-BODIES = """<body name="a"><joint name="j" pos="0.1 0 0"/><geom size=".1" pos=".2 .1 0"/>
+BODIES = """<body name="e"><joint name="limited" axis="0 0 1" actuatorfrcrange="-2 2"/>
+<geom size=".1" pos="3 0 0"/></body>
+<body name="a"><joint name="j" pos="0.1 0 0"/><geom size=".1" pos=".2 .1 0"/>
 <body name="b" pos="0.3 0 0"><joint name="k" pos="0 0.2 0" axis="0 1 0"/><geom size=".1"/></body>
 </body><body name="hand" mocap="true" pos="1 0 0"><geom size=".1" mass="1"/></body>
 <body name="c" pos="0 0 1"><joint name="l" pos="0 0.2 0.1" axis="1 1 0"/><geom size=".1"/></body>"""
@@ -19,6 +21,8 @@ ELEMENTS = {
     "weld that is not active": '<equality><weld body1="c" body2="b" active="false"/></equality>',
     "position of a body": '<sensor><framepos objtype="xbody" objname="a"/></sensor>',
     "position of a center of mass": '<sensor><framepos objtype="body" objname="a"/></sensor>',
+    "force limit of a joint below that of its servo": '<actuator><position joint="limited" kp="9" '
+    'forcerange="-5 5" ctrlrange="-9 9"/></actuator>',
     "relative velocity": '<sensor><framelinvel name="v" objtype="xbody" objname="b" '
     'reftype="xbody" refname="a"/></sensor>',
 }
@@ -45,5 +49,37 @@ def _compute(mujoco, model, seed):
     """Errors of constraints, accelerations and sensors at a random state."""
     data, random = mujoco.MjData(model), np.random.default_rng(seed)
     data.qpos[:], data.qvel[:] = random.normal(0, 0.5, (2, model.nq))
+    data.ctrl[:] = 9
     mujoco.mj_forward(model, data)
     return np.concatenate([data.efc_pos, data.qacc / 100, data.sensordata])
+
+
+REPORTED = {
+    "unread-base-dynamics": '<body name="b" pos="1 0 0"><freejoint/><geom size=".1"/></body>'
+    '<body name="c" pos="2 0 0"><joint type="free" damping="1"/><geom size=".1"/></body>',
+    "lossy-overlap": '<body name="f"><geom type="plane" size="1 1 1"/><geom size=".1"/></body>'
+    '<body name="c"><joint/><geom size=".1" pos="0.01 0 0"/></body>',
+}
+
+
+@pytest.mark.parametrize("code", REPORTED)
+def test_a_difference_is_reported(tmp_path, code):
+    source = tmp_path / "m.xml"
+    source.write_text(f'<mujoco model="m"><worldbody>{REPORTED[code]}</worldbody></mujoco>')
+    written = api.export_mjcf(api.load(source), force=True)
+    assert code in {loss.code for loss in written.losses}
+
+
+def test_settings_that_attached_models_keep_from_being_copied_are_reported(tmp_path):
+    (tmp_path / "part.xml").write_text(
+        f'<mujoco model="p"><worldbody>{BODIES}</worldbody></mujoco>'
+    )
+    source = tmp_path / "m.xml"
+    source.write_text(
+        '<mujoco model="m"><asset><model name="p" file="part.xml"/></asset><worldbody><body '
+        'name="t"><joint/><geom size=".1"/></body><frame><attach model="p" body="b" prefix="x_"/>'
+        '</frame></worldbody><equality><weld body1="t" body2="x_b" solref="0.03 1"/></equality>'
+        "</mujoco>"
+    )
+    codes = {loss.code for loss in api.export_mjcf(api.load(source), force=True).losses}
+    assert "unread-created" in codes
