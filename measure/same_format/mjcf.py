@@ -17,8 +17,7 @@ BASE = """<mujoco model="plain"><worldbody>
 <geom name="floor" type="plane" size="1 1 .1"/>
 <body name="a" pos="0 0 1"><freejoint name="free"/><geom name="ga" size=".1" mass="1"/>
 <site name="sa" pos="0 0 .1"/>
-<body name="b" pos=".3 0 0"><joint name="jb" pos=".05 0 0" range="-1 1"/>
-<geom name="gb" size=".1" mass="1"/>
+<body name="b" pos=".3 0 0"><joint name="jb" range="-1 1"/><geom name="gb" size=".1" mass="1"/>
 <site name="sb" pos="0 0 .1"/>
 <body name="c" pos=".3 0 0"><joint name="jc" axis="0 1 0"/><geom name="gc" size=".1" mass="1"/>
 <site name="sc" pos="0 0 .1"/></body></body>
