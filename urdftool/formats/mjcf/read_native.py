@@ -48,14 +48,14 @@ def add_native(context: Context, robot: Robot) -> None:
     text = _parse_text(context)
     robot.native = [*_list_sections(context, text), *_list_parts(context, text)]
     _mark_held(robot)
-    setting = "created" if _creates_elements(text) else "setting"
+    setting = "created" if _has_created_elements(text) else "setting"
     for root in text.roots:
         for section in root.children:
             if section.tag in COPIED:
                 _report_section(context, section, setting)
 
 
-def _creates_elements(text: _Text) -> bool:
+def _has_created_elements(text: _Text) -> bool:
     """Tell whether a model makes elements from others; its sections are then not copied."""
     return any(element.tag in _CREATING for element in text.lines.values())
 
@@ -106,7 +106,7 @@ def _get_line(element: Element) -> int:
 
 def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
     """Yield the elements of the sections that are copied, and their default classes."""
-    if _creates_elements(text):
+    if _has_created_elements(text):
         return
     has_reference = any(row["ref"] for row in context.list_rows("joint"))
     for tag in COPIED:
