@@ -1,5 +1,7 @@
 """Findings on masses, Gazebo and control need somebody who reads what they are about."""
 
+from itertools import pairwise
+
 import pytest
 
 from urdftool.api.lint import check
@@ -190,3 +192,27 @@ def test_a_misspelled_origin_of_zeros_changes_nothing(tmp_path, xyz, severity):
     visual = f'<visual><origion xyz="{xyz}"/><geometry><sphere radius="1"/></geometry></visual>'
     found = find(tmp_path, "unknown-element", BODY.format("ball", 1, visual))
     assert label(found) == [severity]
+
+
+@pytest.mark.parametrize(("tag", "count"), [("xacro:inertial_props", 0), ("xacro:shape", 1)])
+def test_inertials_under_a_condition_are_left_out_on_purpose(tmp_path, tag, count):
+    path = tmp_path / "r.urdf.xacro"
+    path.write_text(
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        f'<xacro:macro name="{tag[6:]}" params=""/><xacro:arg name="sim" default="false"/>'
+        f'<link name="a">{BOX.format(0.1)}<xacro:if value="$(arg sim)"><{tag}/></xacro:if></link>'
+        "</robot>",
+        "utf-8",
+    )
+    assert len(check(path, select=["missing-inertial"])) == count
+    assert len(check(path, select=["missing-inertial"], targets=["gz"])) == 1
+
+
+@pytest.mark.parametrize(("wheel", "count"), [("link_1", 0), ("wheel", 1)])
+def test_the_inertia_of_the_root_of_an_arm_is_not_used(tmp_path, wheel, count):
+    names = ["base", wheel, "link_2", "link_3", "link_4"]
+    parts = [BODY.replace("0.01", "0.02").format(name, 20, BOX.format(0.5)) for name in names]
+    for number, (one, other) in enumerate(pairwise(names)):
+        parts.append(JOINT.format(f"j{number}", "revolute", one, other))
+    found = find(tmp_path, "inertia-below-geometry", *parts)
+    assert sum("'base'" in message for _, message in found) == count

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 
 from ...model.attached import find_attached_links
-from ...model.elements import Link, Robot
+from ...model.elements import Link, Mesh, Robot
 from ..mesh.link_extents import get_extents
+from .solids import compute_volume
 
 
 def is_slight_frame(robot: Robot, link: Link) -> bool:
@@ -43,3 +44,15 @@ def _is_far_heavier(robot: Robot, link: Link) -> bool:
 
 _FAR_HEAVIER = 50.0
 """Mass of a robot [kg] to which 1 kg matters little. Chosen, no source."""
+
+
+def is_light_marker(link: Link) -> bool:
+    """Tell whether a link is so small that at the density of water its mass is below 1 g."""
+    shapes = link.collisions or link.visuals
+    if any(shape.geometry is None or isinstance(shape.geometry, Mesh) for shape in shapes):
+        return False
+    return 1000 * sum(compute_volume(shape.geometry) for shape in shapes) < _LIGHT
+
+
+_LIGHT = 1e-3
+"""Mass of a marker [kg]. Chosen, no source."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.attached import find_attached_links, is_fixed_to_world
-from ...model.elements import MOVING_TYPES, Joint, Link, Mesh, Robot
+from ...model.elements import MOVING_TYPES, Joint, Link, Robot
+from ...source.description import Description
 from ..fix import (
     Change,
     FixContext,
@@ -34,14 +35,13 @@ from ..symmetry import find_twin
 from ..tree.mounted import is_arm, is_floating_base
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
-from .device_frames import is_slight_frame
+from .device_frames import is_light_marker, is_slight_frame
 from .light_body import find_light_body
-from .solids import DENSITY, compute_volume
+from .optional_inertials import has_optional_inertials
+from .solids import DENSITY
 from .tensors import has_written_inertial
 
 _SIMULATED = ("gazebo-classic", "gz", "mujoco")
-_MARKER = 1e-3
-"""[kg]. Chosen, no source."""
 
 _REMOVED = "Gazebo removes the link and everything attached to it"
 _ALL_REMOVED = "Gazebo removes them and everything attached to them"
@@ -70,7 +70,9 @@ _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-cla
     group="robot",
     formats=URDF_AND_SDF,
 )
-def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
+def missing_inertial(
+    robot: Robot, description: Description, targets: frozenset[str]
+) -> Iterator[Problem]:
     """A link with geometry has no ``<inertial>``.
 
     A body without mass cannot be accelerated, and each simulator substitutes something different:
@@ -84,7 +86,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
     The mass of a link that is fixed to the world matters only to Gazebo.
     Frames without geometry need none, although PyBullet gives them 1 kg, nor does a frame with a
     marker below 1 g at the density of water that is fixed to a link with a mass. Another such
-    marker is an info where MuJoCo substitutes the mass.
+    marker is an info where MuJoCo substitutes the mass. Without a simulator among the targets,
+    links of xacro files are not reported that write inertials under a condition.
     """
     if robot.format == "sdf":
         yield from _report_default_inertials(robot)
@@ -114,7 +117,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             outcome, severity, so = "1 kg", ERROR, "; PyBullet gives it 1 kg"
             several = "; PyBullet gives each of them 1 kg"
         elif "mujoco" in targets and link.collisions and moves:
-            outcome, severity = "water", INFO if _is_marker(link) else ERROR
+            outcome, severity = "water", INFO if is_light_marker(link) else ERROR
             so = "; MuJoCo computes a mass at the density of water"
             several = "; MuJoCo computes their masses at the density of water"
         elif link.name in heavy:
@@ -130,7 +133,7 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
                 outcome, severity = "light", WARNING
                 so = f", and the links fixed to it {light.describe()}"
                 several = ", and the links fixed to them are lighter than air of their size"
-            elif held or _is_marker(link) or is_slight_frame(robot, link):
+            elif held or is_light_marker(link) or is_slight_frame(robot, link):
                 continue
         elif held and (kept is None or not targets.isdisjoint(("mujoco", "pybullet"))):
             continue  # its mass has no effect there, and Gazebo reads only one tree
@@ -138,6 +141,8 @@ def missing_inertial(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]
             outcome, severity = "static", INFO
             so = f" and is fixed to the world; {_REMOVED}"
             several = f" and are fixed to the world; {_ALL_REMOVED}"
+        elif has_optional_inertials(description):
+            continue
         else:
             outcome, severity, so = "no mass", WARNING, " and so has no mass"
             several = " and so have no mass"
@@ -203,14 +208,6 @@ def _select_effects(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
     elif not any(one.mass > 0 or (one.inertial is None and one.collisions) for one in body):
         keys.add("mujoco (no mass)")
     return keys
-
-
-def _is_marker(link: Link) -> bool:
-    """Tell whether a link is so small that at the density of water its mass is below 1 g."""
-    shapes = link.collisions or link.visuals
-    if any(shape.geometry is None or isinstance(shape.geometry, Mesh) for shape in shapes):
-        return False
-    return 1000 * sum(compute_volume(shape.geometry) for shape in shapes) < _MARKER
 
 
 _LIGHTEST = 1e-5

@@ -335,7 +335,8 @@ def inertia_below_geometry(
     middle, such as steel inside of plastic, halves it. An eighth means that the mass is ten times
     too large, that the inertia lost a power of ten, or that the geometry is larger than the body.
     ``least`` is the smallest tolerated part of the box's inertia. Links with less than ``part`` of
-    the mass of their rigid body change little, and are skipped.
+    the mass of their rigid body change little, and are skipped, as is the root of an arm, which is
+    mounted.
     """
     reach = get_extents(robot)
     heavy = {outlier.link.name for outlier in find_outliers(robot)}
@@ -346,6 +347,8 @@ def inertia_below_geometry(
         if link.name in heavy:
             continue  # mass-outlier reports it
         if mass < part * sum(other.mass for other, _ in find_attached_links(robot, link)):
+            continue
+        if is_base_of_arm(robot, link):
             continue
         box = reach.get_link_box(link)
         if box is None:
@@ -390,8 +393,8 @@ def radius_of_gyration(
     a thin ring of that radius has the same moment about its axis. Above 1 m it exceeds most robots,
     below 1 mm it is that of a pinhead. The usual cause is kg·mm² in place of kg·m². A link is not
     reported whose known shapes and joints are as far apart as the inertia requires, as those of a
-    car. Links of known size are checked by ``inertia-exceeds-geometry``; tensors that are zero or
-    negative about an axis by other rules.
+    car, nor is the root of an arm. Links of known size are checked by ``inertia-exceeds-geometry``;
+    tensors that are zero or negative about an axis by other rules.
     """
     reach = get_extents(robot)
     slight = find_slight_parts(robot)
@@ -399,7 +402,7 @@ def radius_of_gyration(
         mass = link.mass
         if mass <= 0 or is_zero(six, mass) or is_placeholder(link, six):
             continue
-        if link.name in slight:
+        if link.name in slight or is_base_of_arm(robot, link):
             continue
         if inertial.mass is None or reach.get_link_box(link) is not None:
             continue
