@@ -554,7 +554,7 @@ FIXES: dict[str, FixTraits] = {
     "undeclared-launch-dependency": FixTraits(SAFE),
     "obsolete-cli-option": FixTraits(SAFE),
     "missing-gazebo-tags": FixTraits(UNSAFE),
-    "missing-gazebo-material": FixTraits(UNSAFE),
+    "missing-gazebo-material": FixTraits(BOTH),
     "missing-friction": FixTraits(UNSAFE),
     "dangling-reference": FixTraits(UNSAFE, reveals=True),
     "misplaced-extension": FixTraits(UNSAFE, reveals=True),

@@ -18,7 +18,7 @@ from ..fix import (
     safe,
     unsafe,
 )
-from ..rule import GAZEBO, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
+from ..rule import BOTH, GAZEBO, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest
 from .contact import get_contact_role, has_friction
@@ -131,7 +131,7 @@ def missing_gazebo_material(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@missing_gazebo_material.fix(UNSAFE)
+@missing_gazebo_material.fix(BOTH)
 def write_material(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the color of the URDF into the block, or into a new one."""
     link = context.get_link(problem)
