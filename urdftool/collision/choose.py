@@ -191,14 +191,17 @@ def _try_hulls(
 def _try_bodies(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic], cutter: PlaneCutter
 ) -> Iterator[Choice]:
-    """Yield a primitive or a hull per exterior body, if there are several but not too many."""
-    hulls: list[Piece] = []
-    mixed: list[Piece] = []
-    for corners, hull in _list_bodies(target, settings, cutter):
-        hulls.append(hull)
-        mixed.append(_fit_primitive(corners, settings.max_error * target.size) or hull)
-    if len(hulls) < 2:
+    """Yield one hull per exterior body, if there are several but not too many.
+
+    Bodies of several meshes are tried as primitives first, which each mesh alone could be.
+    """
+    bodies = _list_bodies(target, settings, cutter)
+    if len(bodies) < 2:
         return
+    hulls = mixed = [hull for _, hull in bodies]
+    if target.surface.meshes > 1:
+        limit = settings.max_error * target.size
+        mixed = [_fit_primitive(corners, limit) or hull for corners, hull in bodies]
     primitives = [piece for piece in mixed if piece.is_primitive]
     if primitives:
         method = "primitive" if len(primitives) == len(mixed) else "hull"
