@@ -10,6 +10,7 @@ from ..model.provenance import NOWHERE
 from ..source.location import Place
 from .check import Check
 from .rows import Row
+from .uncompared import MESHES, Uncompared, explain_row
 
 EXISTENCE = "existence"
 """Property of a part that only one robot has."""
@@ -139,6 +140,7 @@ class Comparison:
         joints: Names of matched joints in the second robot, by those in the first.
         worst: Largest difference of each row; rows of which no robot has a part are absent.
         skipped: Rows that were not computed, with the reason.
+        uncompared: Parts of computed rows that were not compared.
     """
 
     rows: tuple[Row, ...]
@@ -148,6 +150,7 @@ class Comparison:
     joints: dict[str, str] = field(default_factory=dict)
     worst: dict[str, float] = field(default_factory=dict)
     skipped: dict[str, str] = field(default_factory=dict)
+    uncompared: list[Uncompared] = field(default_factory=list)
 
     @property
     def tolerances(self) -> dict[str, float]:
@@ -178,7 +181,7 @@ class Comparison:
             row.what,
             row.tolerance,
             self.worst.get(row.name, 0.0),
-            skipped=self.skipped.get(row.name, ""),
+            skipped=self.explain_skipped(row.name),
             is_empty=row.name not in self.worst,
         )
 
@@ -187,6 +190,22 @@ class Comparison:
         for row in other.worst.keys() & self.tolerances.keys():
             self.worst[row] = max(self.worst.get(row, 0.0), other.worst[row])
         self.differences += [d for d in other.differences if d.row in self.tolerances]
+        for part in other.uncompared:
+            self.record_uncompared(part)
+
+    def record_uncompared(self, part: Uncompared) -> None:
+        """Record a part of a compared row that was not compared."""
+        if part.row in self.tolerances and part not in self.uncompared:
+            self.uncompared.append(part)
+
+    def explain_skipped(self, row: str) -> str:
+        """Return why a row, or what part of it, was not compared; empty if it was."""
+        return self.skipped.get(row) or explain_row(self.uncompared, row)
+
+    def list_skipped(self) -> dict[str, str]:
+        """Return why rows, or what parts of them, were not compared."""
+        found = ((row.name, self.explain_skipped(row.name)) for row in self.rows)
+        return {**self.skipped, **{row: why for row, why in found if why}}
 
     def record_not_comparable(self, what: str) -> None:
         """Record a property that one of the formats does not have."""
@@ -194,9 +213,14 @@ class Comparison:
             self.not_comparable.append(what)
 
     @property
+    def is_different(self) -> bool:
+        """Tell whether more than conventions differs."""
+        return not all(difference.is_convention for difference in self.differences)
+
+    @property
     def is_equal(self) -> bool:
-        """Tell whether nothing but conventions differs."""
-        return all(difference.is_convention for difference in self.differences)
+        """Tell whether nothing but conventions differs, and every mesh could be read."""
+        return not self.is_different and all(one.kind != MESHES for one in self.uncompared)
 
     def make_checks(self) -> list[Check]:
         """Return a row of the table for each property that was compared."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -10,12 +11,13 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import UrdftoolError
+from ..errors import PackageNotFound, UrdftoolError
 from ..extras import is_installed
 from ..geometry.image_file import open_image
 from ..geometry.load import load_mesh
 from ..mechanics.reference import Array
 from ..model.elements import Geometry, Mesh, Robot
+from ..source.packages import shorten_path
 
 _HEAD = 4096
 """Bytes of an OBJ in which its file of materials is named."""
@@ -72,6 +74,7 @@ class MeshMeasures:
     _read: dict[_Key, _Surface | None] = field(default_factory=dict)
     _measured: dict[tuple[_Key, bytes], Measure] = field(default_factory=dict)
     _digests: dict[str, str] = field(default_factory=dict)
+    _reasons: dict[str, str] = field(default_factory=dict)
 
     def find(self, robot: Robot, mesh: Mesh) -> Path | None:
         """Return the file of a mesh; None if it does not exist."""
@@ -84,6 +87,31 @@ class MeshMeasures:
         if robot.source is not None and robot.source.workspace.get_overlay(path) is not None:
             return robot.source.workspace.materialize(path)  # a mesh that is not written yet
         return path if path.is_file() else None
+
+    def explain_unread(self, robot: Robot, mesh: Mesh) -> str:
+        """Return why a mesh cannot be measured; empty if it can."""
+        path = self.find(robot, mesh)
+        if path is not None:
+            surface = self._load(robot, (str(path), mesh.scale))
+            return "" if surface is not None else self._reasons[str(path)]
+        try:
+            if robot.source is not None:
+                robot.source.resolve(mesh.filename)
+        except UrdftoolError as error:
+            return str(error.data.get("reason") or error.message)
+        return "does not exist"
+
+    def name_file(self, robot: Robot, mesh: Mesh) -> str:
+        """Return the path of a mesh file; its URI if the package is not found."""
+        path, uri = _locate(robot, mesh)
+        return uri or shorten_path(path)
+
+    def names_one_file(self, robots: tuple[Robot, Robot], meshes: tuple[Mesh, Mesh]) -> bool:
+        """Tell whether two meshes are one file, which need not exist, with one scale."""
+        if meshes[0].scale != meshes[1].scale:
+            return False
+        places = [_locate(*side) for side in zip(robots, meshes, strict=True)]
+        return places[0] == places[1]
 
     def get_digest(self, path: Path) -> str:
         """Return a digest of the content of a file."""
@@ -136,13 +164,26 @@ class MeshMeasures:
             up = "y" if robot.source is None else robot.source.gltf_up
             try:
                 loaded = load_mesh(Path(key[0]), key[1], gltf_up=up or "y")
-            except UrdftoolError:
+            except UrdftoolError as error:
                 self._read[key] = None
+                self._reasons[key[0]] = error.message
             else:
                 vertices = np.asarray(loaded.vertices, dtype=np.float64)
                 faces = np.asarray(loaded.faces)
                 self._read[key] = _make_surface(vertices, faces) if len(faces) else None
+                if not len(faces):
+                    self._reasons[key[0]] = "has no triangles"
         return self._read[key]
+
+
+def _locate(robot: Robot, mesh: Mesh) -> tuple[Path, str]:
+    """Return the place of a mesh file; of an unknown package the folder of the robot and its URI."""
+    if robot.source is None:
+        return Path(mesh.filename), ""
+    try:
+        return Path(os.path.normpath(robot.source.packages.locate(mesh.filename))), ""
+    except PackageNotFound:
+        return Path(robot.source.path).parent, mesh.filename
 
 
 def _make_surface(vertices: Array, faces: Faces) -> _Surface:

@@ -36,6 +36,7 @@ from .looks import compare_looks
 from .mesh_measure import Measure, measure_distance
 from .pair import Match, Pair, add_presence, locate
 from .settings import compare_surfaces
+from .uncompared import MESHES, Uncompared
 
 Rgba = tuple[float, ...]
 
@@ -115,6 +116,7 @@ def _match_equal(state: _Comparing) -> None:
             left.remove(i)
             right.remove(j)
             _add(state, state.one[i], state.two[j], min(distance, state.tolerance), "")
+            _record_unread(state, state.one[i], state.two[j])
             _compare_colors(state, state.one[i], state.two[j])
             _compare_surfaces(state, state.one[i], state.two[j])
     for _, i, j in pairs:  # drawn twice at one place: from two files in one of the robots
@@ -176,11 +178,26 @@ def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
                 return distance
     measures = _measure_union(state, [x], [y])
     if measures is None:
-        state.comparison.record_not_comparable("meshes whose file is missing or unreadable")
         same = one.filename.rpartition("/")[2] == two.filename.rpartition("/")[2]
         same = same and np.allclose(one.scale, two.scale)
         return measure_largest(invert(x.pose) @ y.pose) if same else np.inf
     return _round_off(measures)
+
+
+def _record_unread(state: _Comparing, x: Placed, y: Placed) -> None:
+    """Record the meshes of two equal shapes that were not read, but for one file of both."""
+    robots, meshes = (state.pair.a.robot, state.pair.b.robot), state.pair.meshes
+    shapes = x.geometry, y.geometry
+    if not isinstance(shapes[0], Mesh) or not isinstance(shapes[1], Mesh):
+        return
+    same_axes = _get_up(robots[0]) == _get_up(robots[1])
+    if same_axes and meshes.names_one_file(robots, shapes):
+        return
+    for robot, mesh in zip(robots, shapes, strict=True):
+        reason = meshes.explain_unread(robot, mesh)
+        if reason:
+            part = Uncompared(state.row, MESHES, meshes.name_file(robot, mesh), reason)
+            state.comparison.record_uncompared(part)
 
 
 def _get_up(robot: Robot) -> str | None:

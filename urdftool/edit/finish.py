@@ -80,7 +80,7 @@ class Edited:
     @property
     def is_proved(self) -> bool:
         """Tell whether nothing differs from what the operation declares."""
-        return all(proof.comparison.is_equal for proof in self.proofs)
+        return not any(proof.comparison.is_different for proof in self.proofs)
 
     def write(self, output: str | Path) -> list[Path]:
         """Write the robot; see :func:`write_edited`."""

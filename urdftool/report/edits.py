@@ -55,7 +55,7 @@ def format_text(edited: Edited) -> str:
 def _format_proof(edited: Edited, proof: Proof) -> str:
     comparison = proof.comparison
     title = f"compared with {proof.name}, by urdftool verify --map:\n"
-    if comparison.is_equal:
+    if not comparison.is_different:
         reasons: dict[str, list[str]] = {}
         for row, reason in comparison.skipped.items():
             reasons.setdefault(reason, []).append(row)

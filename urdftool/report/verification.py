@@ -37,7 +37,7 @@ def to_json(paths: Sequence[str], agreement: Agreement) -> str:
                 "files": list(pair),
                 "equal": comparison.is_equal,
                 "checks": [check.as_dict() for check in comparison.make_checks()],
-                "skipped": comparison.skipped,
+                "skipped": comparison.list_skipped(),
                 "not_comparable": comparison.not_comparable,
                 "joints": comparison.joints,
                 "links": comparison.links,
@@ -165,9 +165,9 @@ def _format_rest(agreement: Agreement) -> str:
         for text in comparison.not_comparable:
             what, _, why = text.partition(": ")
             missing.setdefault(why, {})[what] = None
-        for row, why in comparison.skipped.items():
+        for row, why in comparison.list_skipped().items():
             missing.setdefault(why, {})[row] = None
-    texts = [f"{', '.join(sorted(rows))} ({why})" for why, rows in missing.items()]
+    texts = [", ".join(sorted(rows)) + (f" ({why})" if why else "") for why, rows in missing.items()]
     lines = [f"not comparable: {'; '.join(texts)}\n"] if texts else []
     return "\n" + "".join(lines) + f"not compared: {', '.join(NOT_COMPARED)}\n"
 
@@ -176,6 +176,15 @@ def _has_compared(agreement: Agreement) -> bool:
     """Tell whether a row compared something that one of the robots has."""
     checks = (check for one in agreement.pairs.values() for check in one.make_checks())
     return any(check.verdict not in ("none", "not compared") for check in checks)
+
+
+def _describe_verdict(agreement: Agreement) -> str:
+    """Describe the result of robots without a difference that was found."""
+    if not _has_compared(agreement):
+        return "nothing was compared"
+    if not agreement.is_equal:
+        return "no difference was found, but meshes were not read"
+    return "equal in every compared property"
 
 
 def summarize(paths: Sequence[str], agreement: Agreement, totals: Sequence[int]) -> str:
@@ -192,12 +201,10 @@ def summarize(paths: Sequence[str], agreement: Agreement, totals: Sequence[int])
         missing = {
             text.partition(": ")[0]
             for comparison in agreement.pairs.values()
-            for text in (*comparison.not_comparable, *comparison.skipped)
+            for text in (*comparison.not_comparable, *comparison.list_skipped())
         }
         rest = f"; {len(missing)} could not be compared" if missing else ""
-        has_compared = _has_compared(agreement)
-        verdict = "equal in every compared property" if has_compared else "nothing was compared"
-        return f"{robots}: {verdict}{rest}"
+        return f"{robots}: {_describe_verdict(agreement)}{rest}"
     text = f"{robots}: {format_count(len(entries), 'difference')}"
     for number, path in enumerate(paths):
         count = sum(entry.alone == number for entry in entries)

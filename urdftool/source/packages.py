@@ -467,6 +467,14 @@ class Packages:
             raise AccessError(message, data={"reason": reason})
         return path
 
+    def locate(self, uri: str) -> Path:
+        """Return the place of a file, which may not exist, and which is not read.
+
+        Raises:
+            PackageNotFound: The package was not found.
+        """
+        return self._find_file(uri, None)
+
     def _find_file(self, uri: str, relative_to: str | Path | None) -> Path:
         scheme, separator, rest = uri.partition("://")
         if separator and scheme in ("package", "model"):

@@ -48,6 +48,7 @@ EXCUSES = (
     Excuse(("colors", "textures"), frozenset(("lossy-material", "lossy-texture"))),
     Excuse(("sensors",), frozenset(("lossy-sensor", "lossy-camera"))),
     Excuse(("loops",), frozenset(LOOPS)),
+    Excuse(("configurations",), frozenset(("lossy-configuration",))),
     Excuse(("other elements",), frozenset(("lossy-mujoco-element",))),
     Excuse(
         ("configurations",),

@@ -22,6 +22,7 @@ from ...mechanics.reference import Array, Mechanics, get_origin_matrix
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import get_limits
 from ...model.load import read_again
+from ...model.mechanism import Closure
 from ...model.world import add_world
 from ..common.losses import DeclaredLosses, name_links
 from ..reading import Reading
@@ -138,8 +139,14 @@ def _make_expected(source: Robot, planned: Robot) -> Robot:
         source: The robot as its description defines it.
         planned: The robot that a second export writes.
     """
+    kept = {one.name for one in planned.configurations}
     return replace(
         planned,
+        closures=[*planned.closures, *_list_dropped(source, planned)],
+        configurations=[
+            *planned.configurations,
+            *(one for one in source.configurations if one.name not in kept),
+        ],
         links=[
             *(_make_link(link, planned) for link in source.links),
             *(link for link in planned.links if link.name not in source.link),
@@ -151,6 +158,23 @@ def _make_expected(source: Robot, planned: Robot) -> Robot:
         transmissions=[],
         ros2_controls=[],
     )
+
+
+def _list_dropped(source: Robot, planned: Robot) -> list[Closure]:
+    """Return the connections of the source that close no loop of the export."""
+    left = [(one.name, {one.parent, one.child}) for one in planned.closures]
+    dropped = []
+    for closure in source.closures:
+        ends = {closure.parent, closure.child}
+        found = next(
+            (n for n, (name, two) in enumerate(left) if two == ends and closure.name in (name, "")),
+            None,
+        )
+        if found is None:
+            dropped.append(closure)
+        else:
+            del left[found]
+    return dropped
 
 
 def _make_link(link: Link, planned: Robot) -> Link:

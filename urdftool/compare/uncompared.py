@@ -1,0 +1,39 @@
+"""What a row could not compare, because a file was not read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+MESHES = "mesh", "meshes"
+"""Kind of the meshes whose surface was not measured: nothing is known of the shape then."""
+
+
+class Uncompared(NamedTuple):
+    """A part of a row that was not compared.
+
+    Attributes:
+        row: The row.
+        kind: What it is, for one and for several.
+        name: Its name.
+        reason: Why it was not compared.
+    """
+
+    row: str
+    kind: tuple[str, str]
+    name: str
+    reason: str
+
+
+def explain_row(parts: Iterable[Uncompared], row: str) -> str:
+    """Return how many parts of a row were not compared, with the first; empty for none."""
+    found: dict[tuple[str, str], list[Uncompared]] = {}
+    for part in parts:
+        if part.row == row:
+            found.setdefault(part.kind, []).append(part)
+    return "; ".join(_explain(kind, some) for kind, some in found.items())
+
+
+def _explain(kind: tuple[str, str], parts: Sequence[Uncompared]) -> str:
+    first, count = parts[0], len(parts)
+    return f"{count} {kind[count > 1]} not read: {first.name}, {first.reason}"
