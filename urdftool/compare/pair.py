@@ -9,9 +9,11 @@ from ..mechanics.reference import Array
 from ..model.elements import Robot
 from ..model.part import Part
 from ..model.provenance import NOWHERE
+from ..model.world import WORLD
 from ..source.location import Place
 from .bodies import Bodies, Body, find_locked_joints
 from .difference import Comparison, Difference
+from .floating import find_released, release
 from .mesh_measure import MeshMeasures
 from .names import NameMap, match_names
 
@@ -52,6 +54,8 @@ class Pair:
 
 def make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair:
     """Return both robots as bodies; a locked joint that the other lacks counts as fixed."""
+    given = a, b
+    a, b, names = _release_floating(a, b, names)
     moving, moving2 = ({j.name for j in robot.joints if not j.is_fixed} for robot in (a, b))
     welded = {n for n in find_locked_joints(a) if names.joints.get(n, n) not in moving2}
     back = {new: old for old, new in names.joints.items()}
@@ -69,7 +73,21 @@ def make_pair(a: Robot, b: Robot, names: NameMap, meshes: MeshMeasures) -> Pair:
     if keep_root:
         for bodies in (one, two):
             bodies.reset_root()
+    for bodies, robot in zip((one, two), given, strict=True):
+        if bodies.robot is not robot and robot.base is None and robot.tree.root is not None:
+            bodies.is_free = bodies.is_free if robot.tree.root.name == WORLD else None
     return Pair(one, two, joints, links, meshes, parts=names.parts)
+
+
+def _release_floating(a: Robot, b: Robot, names: NameMap) -> tuple[Robot, Robot, NameMap]:
+    """Return both robots with the same floating joints as children of the world, and all names."""
+    back = {new: old for old, new in names.links.items()}
+    here, there = find_released(a, b, names.links), find_released(b, a, back)
+    if not here and not there:
+        return a, b, names
+    joints = {**names.joints, **here, **{old: new for new, old in there.items()}}
+    one, two = release(a, here, b) if here else a, release(b, there, a) if there else b
+    return one, two, names._replace(joints=joints)
 
 
 def _has_one_skipped_root(one: Bodies, two: Bodies) -> bool:

@@ -7,6 +7,7 @@ that no loss explains fails the proof. Messages are not read.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, NamedTuple, Protocol
@@ -46,6 +47,9 @@ TOLERANCE_OF_POSE = 1e-9
 """Largest difference of the poses of two models [m, rad] that counts as equal; chosen, above the
 rounding errors of angles.
 """
+
+_NOT_IN_NAMES = re.compile(r"\W")
+"""Characters that identifiers of USD do not have."""
 
 _SHOWN = 9
 """Digits of the numbers in a difference; chosen, above the strictest tolerance of 1e-9."""
@@ -97,12 +101,15 @@ class Claims:
         renamed: New names by ``kind`` and old name.
         excuses: Differences that codes of losses explain.
         unread: What the reader does not hold of the exported file.
+        unseen: Parts that ``unread`` explains where the result seems to lack them: they are not
+            compared.
     """
 
     losses: Sequence[Loss] = ()
     renamed: Mapping[tuple[str, str], str] = field(default_factory=dict)
     excuses: Sequence[Excuse] = ()
     unread: Sequence[Loss] = ()
+    unseen: Sequence[Excuse] = ()
 
     @property
     def names(self) -> NameMap:
@@ -243,6 +250,9 @@ def make_checks(source: Robot, comparison: Comparison, claims: Claims) -> list[C
     ordered = sorted(comparison.differences, key=lambda d: d.row in GLOBAL_ROWS)
     for difference in ordered:
         check = checks[difference.row]
+        if unread := _find_unread(difference, claims):
+            check.skipped = f"not read: {unread}"
+            continue
         names = _list_names(source, difference, back)
         known = difference.is_convention or any(
             excuse.covers(difference) and (parts is None or not parts.isdisjoint(names))
@@ -255,6 +265,19 @@ def make_checks(source: Robot, comparison: Comparison, claims: Claims) -> list[C
         if text not in place:
             place.append(text)
     return list(checks.values())
+
+
+def _find_unread(difference: Difference, claims: Claims) -> str:
+    """Return why a part of the source is not in the result: its reader does not hold it."""
+    if difference.values[1] not in (None, "none"):
+        return ""
+    name = _NOT_IN_NAMES.sub("_", difference.name)
+    for excuse in claims.unseen:
+        for loss in claims.unread if excuse.covers(difference) else ():
+            names = loss.data.get("names", ())
+            if loss.code in excuse.codes and (excuse.extent == "robot" or name in names):
+                return loss.message
+    return ""
 
 
 def describe(difference: Difference) -> str:

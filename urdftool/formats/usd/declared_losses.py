@@ -35,3 +35,9 @@ EXCUSES = (
     Excuse(("loops",), frozenset(("lossy-closure",))),
 )
 """Rows whose differences a loss explains."""
+
+UNSEEN = (
+    Excuse(("loops",), frozenset(("unread-disabled-joint",))),
+    Excuse(("textures",), frozenset(("unread-texture",)), "robot"),
+)
+"""Rows of what the reader does not hold of a stage."""

@@ -23,7 +23,7 @@ from ..common.directory import write_export
 from ..common.losses import DeclaredLosses, name_links
 from ..step_read_back import check_read_back
 from ..written import Written
-from .declared_losses import EXCUSES
+from .declared_losses import EXCUSES, UNSEEN
 from .read import read
 from .verify_home import compare_home, read_start
 
@@ -32,6 +32,9 @@ _SINGLE = 1e-6
 
 _NOT_READ = ("world", "looks", "sensors", "configurations", "plugins", "simulator data", NATIVE)
 """Rows of what a stage does not have, or its reader does not read."""
+
+_KINDS = {"ball": "connect", "fixed": "weld"}
+"""Names of MJCF, which the reader uses, for connections of SDF that USD writes as the same joint."""
 
 _PLACES = ("frames", "axes", "collisions", "visuals", "colors", "mass matrix", "gravity")
 """Rows in which the rounding of several floats adds up; they keep their tolerance."""
@@ -56,7 +59,7 @@ def verify_copy(
         path = place / written.main
         reading = read(path, file=read_file(path), mesh_folder=Path(folder) / "meshes")
         losses = list(name_links(expected, written.losses))
-        claims = Claims(losses, written.renamed, EXCUSES, reading.losses)
+        claims = Claims(losses, written.renamed, EXCUSES, reading.losses, UNSEEN)
         checks = prove(expected, reading.robot, claims, rows=choose_rows())
         checks.append(compare_home(path, expected, written.planned.configurations[0].positions))
         checks.append(check_read_back(reading.robot, read_start(path), timestep, losses))
@@ -81,6 +84,7 @@ def make_expected(source: Robot, planned: Robot) -> Robot:
         joints=[_set_choices(joint, planned.joint[joint.name]) for joint in source.joints],
         joint_actuators=planned.joint_actuators,
         exclusions=planned.exclusions,
+        closures=[replace(c, type=_KINDS.get(c.type, c.type)) for c in source.closures],
         gazebo=[],
         transmissions=[],
         ros2_controls=[],
