@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -31,10 +31,10 @@ from .difference import Comparison, Difference
 from .frames import describe_motion, describe_pose, format_vector, invert, measure_largest
 from .images import add_images
 from .inertia import combine, format_tensor
-from .joints import OUTSIDE_ROWS, list_values
 from .mesh_measure import MeshMeasures
 from .names import NameMap, get_pair
 from .pair import locate
+from .references import list_references
 from .rows import GLOBAL_ROWS, Row
 
 _CONFIGURATIONS = 6
@@ -84,7 +84,7 @@ def compare_declared(
     _drop_uncompared_blocks(comparison, before, gone)
     for difference in (
         *_compare_links(a, b, names, declared),
-        *_compare_joints(a, b, names, declared),
+        *_compare_joints(a, b, names, declared, comparison.joints),
         *_compare_mounts(before[1], declared),
         *_compare_poses(a, b, names),
         *_compare_masses(a, b, names, declared, comparison.tolerances.get("mass", 0.0)),
@@ -172,9 +172,9 @@ def _compare_links(
 
 
 def _compare_joints(
-    a: Robot, b: Robot, names: NameMap, declared: Correspondence
+    a: Robot, b: Robot, names: NameMap, declared: Correspondence, moving: Collection[str]
 ) -> Iterator[Difference]:
-    """Yield joints that only the first robot has, and differences of soft limits."""
+    """Yield joints that only the first robot has, and soft limits of those that do not move."""
     for joint in a.joints:
         name = names.joints.get(joint.name, joint.name)
         child = a.link.get(joint.child)
@@ -185,7 +185,8 @@ def _compare_joints(
                 values = name, None
                 yield _make("tree", "joint", (joint.name, ""), "name", values, math.inf, joint)
             continue
-        yield from _compare_references(joint, b.joint[name])
+        if joint.name not in moving:
+            yield from list_references(joint, b.joint[name])
 
 
 def _compare_mounts(b: Robot, declared: Correspondence) -> Iterator[Difference]:
@@ -204,18 +205,6 @@ def _compare_mounts(b: Robot, declared: Correspondence) -> Iterator[Difference]:
         ends = f"fixed to {parent}", f"{joint.type} to {joint.parent}"
         amount = 0.0 if joint.is_fixed and joint.parent == parent else math.inf
         yield Difference("tree", "joint", names, "mount", ends, "", amount, places)
-
-
-def _compare_references(x: Joint, y: Joint) -> Iterator[Difference]:
-    """Yield differences of soft limits and of calibration, which the rows do not compare."""
-    for value in list_values(x, y, *OUTSIDE_ROWS):
-        one, two = value.values
-        amount = 0.0 if one == two else math.inf
-        if isinstance(one, int | float) and isinstance(two, int | float):
-            amount = abs(one - two)
-        names, places = (x.name, y.name), (locate(value.owners[0], x), locate(value.owners[1], y))
-        what = value.name.replace("_", " ")
-        yield Difference("limits", "joint", names, what, value.values, value.unit, amount, places)
 
 
 def _make(

@@ -177,7 +177,7 @@ class MeshMeasures:
 
 
 def _locate(robot: Robot, mesh: Mesh) -> tuple[Path, str]:
-    """Return the place of a mesh file; of an unknown package the folder of the robot and its URI."""
+    """Return the place of a mesh; of an unknown package the folder of the robot, and its URI."""
     if robot.source is None:
         return Path(mesh.filename), ""
     try:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -39,6 +40,9 @@ from .settings import compare_surfaces
 from .uncompared import MESHES, Uncompared
 
 Rgba = tuple[float, ...]
+
+_PLACE = 9
+"""Decimals of the distance [m] of shapes at one place; chosen, above rounding errors of poses."""
 
 
 class Placed(NamedTuple):
@@ -101,14 +105,15 @@ def _list_shapes(bodies: Bodies, body: Body, kind: str, frame: Array) -> list[Pl
 
 
 def _match_equal(state: _Comparing) -> None:
-    """Remove the shapes that are equal in both bodies, the nearest first."""
-    pairs = sorted(
-        (
+    """Remove the shapes that are equal in both bodies, the nearest of equal looks first."""
+    pairs = _prefer_equal_looks(
+        state,
+        [
             (distance, i, j)
             for i, x in enumerate(state.one)
             for j, y in enumerate(state.two)
             if (distance := _measure(state, x, y)) <= state.tolerance
-        ),
+        ],
     )
     left, right = set(range(len(state.one))), set(range(len(state.two)))
     for distance, i, j in pairs:
@@ -126,6 +131,34 @@ def _match_equal(state: _Comparing) -> None:
             _compare_colors(state, state.one[i], state.two[j])
     state.one = [state.one[i] for i in sorted(left)]
     state.two = [state.two[j] for j in sorted(right)]
+
+
+def _prefer_equal_looks(
+    state: _Comparing, pairs: list[tuple[float, int, int]]
+) -> list[tuple[float, int, int]]:
+    """Return pairs of shapes, the nearest first, of those at one place the most similar first.
+
+    Args:
+        state: The shapes.
+        pairs: Distance [m] and numbers of two shapes of each pair.
+    """
+    counts = Counter((side, n) for _, i, j in pairs for side, n in enumerate((i, j)))
+
+    def rank(entry: tuple[float, int, int]) -> tuple[float, int, float, int, int]:
+        distance, i, j = entry
+        is_only = counts[0, i] == counts[1, j] == 1
+        other = 0 if is_only else _count_differences(state, state.one[i], state.two[j])
+        return round(distance, _PLACE), other, distance, i, j
+
+    return sorted(pairs, key=rank)
+
+
+def _count_differences(state: _Comparing, x: Placed, y: Placed) -> int:
+    """Count the properties of two shapes of equal geometry that differ, their names last."""
+    trial = replace(state, comparison=Comparison(state.comparison.rows))
+    _compare_colors(trial, x, y)
+    _compare_surfaces(trial, x, y)
+    return 2 * len(trial.comparison.differences) + (x.shape.name != y.shape.name)
 
 
 def _measure(state: _Comparing, x: Placed, y: Placed) -> float:

@@ -167,7 +167,9 @@ def _format_rest(agreement: Agreement) -> str:
             missing.setdefault(why, {})[what] = None
         for row, why in comparison.list_skipped().items():
             missing.setdefault(why, {})[row] = None
-    texts = [", ".join(sorted(rows)) + (f" ({why})" if why else "") for why, rows in missing.items()]
+    texts = [
+        ", ".join(sorted(rows)) + (f" ({why})" if why else "") for why, rows in missing.items()
+    ]
     lines = [f"not comparable: {'; '.join(texts)}\n"] if texts else []
     return "\n" + "".join(lines) + f"not compared: {', '.join(NOT_COMPARED)}\n"
 

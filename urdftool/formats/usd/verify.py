@@ -34,7 +34,7 @@ _NOT_READ = ("world", "looks", "sensors", "configurations", "plugins", "simulato
 """Rows of what a stage does not have, or its reader does not read."""
 
 _KINDS = {"ball": "connect", "fixed": "weld"}
-"""Names of MJCF, which the reader uses, for connections of SDF that USD writes as the same joint."""
+"""Names that the reader uses for the connections of SDF that are the same joint in USD."""
 
 _PLACES = ("frames", "axes", "collisions", "visuals", "colors", "mass matrix", "gravity")
 """Rows in which the rounding of several floats adds up; they keep their tolerance."""
