@@ -22,6 +22,7 @@ from ..model.settings import (
 from .difference import Comparison, Difference, describe_change
 from .joints import JointMatch, measure
 from .pair import Match, Pair, locate
+from .references import compare_references
 from .tolerance import is_same
 
 
@@ -85,13 +86,14 @@ def compare_flags(pair: Pair, match: Match, comparison: Comparison) -> None:
 def compare_joint_settings(
     pair: Pair, match: JointMatch, sign: float, comparison: Comparison
 ) -> None:
-    """Compare the settings of a joint; the rest of a spring counts only where there is one."""
+    """Compare the settings and references of a joint; the rest of a spring only of a spring."""
     one, two, _ = match
     settings = _turn(one.settings, 1.0), _turn(two.settings, sign)
     names = one.name, two.name
     sprung = one.spring is not None or two.spring is not None
     rows = [row for row in ALL_OF_JOINTS if sprung or row.name != "spring_reference"]
     compare_settings(pair, comparison, "joint physics", "joint", names, rows, settings, (one, two))
+    compare_references(pair, (one, two), sign, comparison)
 
 
 def _turn(settings: Settings, sign: float) -> Settings:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -12,14 +11,10 @@ from ..mechanics.reference import Array, get_origin_matrix
 from ..model.appearance import find_unknown_script
 from ..model.drawn import list_drawn_once
 from ..model.elements import (
-    Box,
     Capsule,
     Collision,
     Cone,
     Cylinder,
-    Ellipsoid,
-    Geometry,
-    Link,
     Material,
     Mesh,
     Plane,
@@ -29,13 +24,14 @@ from ..model.elements import (
 )
 from ..model.gltf_axes import is_gltf
 from ..model.materials import UNCOLORED, find_gazebo_material, find_shown_material
-from ..model.shapes import describe_shape, get_shape_name
+from ..model.shapes import get_shape_name
 from .bodies import Bodies, Body
 from .difference import Comparison, Difference
-from .frames import describe_pose, format_vector, invert, measure_largest
+from .frames import format_vector, invert, measure_largest
 from .looks import compare_looks
 from .mesh_measure import Measure, measure_distance
 from .pair import Match, Pair, add_presence, locate
+from .placed import Placed, describe, describe_what, get_size
 from .settings import compare_surfaces
 from .uncompared import MESHES, Uncompared
 
@@ -45,31 +41,16 @@ _PLACE = 9
 """Decimals of the distance [m] of shapes at one place; chosen, above rounding errors of poses."""
 
 
-class Placed(NamedTuple):
-    """A shape at its pose in the frame of the first body.
-
-    Attributes:
-        link: Its link.
-        shape: The visual or collision.
-        geometry: Its geometry.
-        pose: Pose, 4 × 4.
-    """
-
-    link: Link
-    shape: Visual | Collision
-    geometry: Geometry
-    pose: Array
-
-
 @dataclass
 class _Comparing:
-    """The shapes of two bodies that have no counterpart yet."""
+    """The shapes of two bodies that have no counterpart yet; ``every`` also has repeated ones."""
 
     pair: Pair
     row: str
     comparison: Comparison
     one: list[Placed]
     two: list[Placed]
+    every: tuple[list[Placed], list[Placed]]
 
     @property
     def tolerance(self) -> float:
@@ -85,18 +66,25 @@ def compare_shapes(pair: Pair, match: Match, comparison: Comparison) -> None:
             continue
         one = _list_shapes(pair.a, match.one, kind, np.eye(4))
         two = _list_shapes(pair.b, match.two, kind, match.frame)
-        state = _Comparing(pair, row, comparison, one, two)
+        every = (
+            _list_shapes(pair.a, match.one, kind, np.eye(4), repeated=True),
+            _list_shapes(pair.b, match.two, kind, match.frame, repeated=True),
+        )
+        state = _Comparing(pair, row, comparison, one, two, every)
         _match_equal(state)
         _match_capsules(state)
         _match_unions(state, match)
         _match_others(state, kind, match)
 
 
-def _list_shapes(bodies: Bodies, body: Body, kind: str, frame: Array) -> list[Placed]:
+def _list_shapes(
+    bodies: Bodies, body: Body, kind: str, frame: Array, *, repeated: bool = False
+) -> list[Placed]:
     found = []
     for name, pose in body.members.items():
         link = bodies.robot.link[name]
-        shapes = link.collisions if kind == "collision" else list_drawn_once(bodies.robot, link)
+        drawn = link.visuals if repeated else list_drawn_once(bodies.robot, link)
+        shapes = link.collisions if kind == "collision" else drawn
         for shape in shapes:
             if shape.geometry is not None:
                 at = frame @ pose @ get_origin_matrix(shape.origin)
@@ -124,13 +112,31 @@ def _match_equal(state: _Comparing) -> None:
             _record_unread(state, state.one[i], state.two[j])
             _compare_colors(state, state.one[i], state.two[j])
             _compare_surfaces(state, state.one[i], state.two[j])
+    extra = set(left)
     for _, i, j in pairs:  # drawn twice at one place: from two files in one of the robots
         if (i in left) != (j in right) and isinstance(state.one[i].shape, Visual):
             left.discard(i)
             right.discard(j)
-            _compare_colors(state, state.one[i], state.two[j])
+            _compare_colors(state, *_find_repeated(state, i, j, is_first=i in extra))
     state.one = [state.one[i] for i in sorted(left)]
     state.two = [state.two[j] for j in sorted(right)]
+
+
+def _find_repeated(state: _Comparing, i: int, j: int, *, is_first: bool) -> tuple[Placed, Placed]:
+    """Return a visual that one robot draws more often, and the most similar one of the other.
+
+    Args:
+        state: The shapes.
+        i: Number of the shape of the first robot.
+        j: Number of the shape of the second, at the same place.
+        is_first: Whether the first robot draws it more often.
+    """
+    pair = state.one[i], state.two[j]
+    others = [
+        (pair[0], other) if is_first else (other, pair[1]) for other in state.every[int(is_first)]
+    ]
+    equal = [two for two in others if _measure(state, *two) <= state.tolerance]
+    return min((pair, *equal), key=lambda two: _count_differences(state, *two))
 
 
 def _prefer_equal_looks(
@@ -167,7 +173,7 @@ def _measure(state: _Comparing, x: Placed, y: Placed) -> float:
         return np.inf
     if isinstance(x.geometry, Mesh) and isinstance(y.geometry, Mesh):
         return _measure_meshes(state, x, y)
-    size, size2 = (_get_size(p.geometry) for p in (x, y))
+    size, size2 = (get_size(p.geometry) for p in (x, y))
     if size is None or size2 is None:
         same = get_shape_name(x.geometry) == get_shape_name(y.geometry)
         return measure_largest(invert(x.pose) @ y.pose) if same else np.inf
@@ -181,21 +187,6 @@ def _measure(state: _Comparing, x: Placed, y: Placed) -> float:
         along = float(np.linalg.norm(x.pose[:3, 2] - y.pose[:3, 2])) * float(max(size))
     sizes = float(np.abs(np.array(size) - np.array(size2)).max())
     return max(distance, spread, along, sizes)
-
-
-def _get_size(geometry: Geometry) -> tuple[float, float, float] | None:
-    """Return three lengths [m] that describe a primitive, of which the third is along z."""
-    if isinstance(geometry, Box):
-        return geometry.size
-    if isinstance(geometry, Ellipsoid):
-        return geometry.radii
-    if isinstance(geometry, Sphere):
-        return geometry.radius, geometry.radius, geometry.radius
-    if isinstance(geometry, Cylinder | Capsule | Cone):
-        return geometry.radius, geometry.radius, geometry.length
-    if isinstance(geometry, Plane):
-        return 1.0, 1.0, 0.0
-    return None
 
 
 def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
@@ -354,11 +345,11 @@ def _match_others(state: _Comparing, kind: str, match: Match) -> None:
                 state.comparison,
                 state.row,
                 "link",
-                _describe_what(kind, p),
+                describe_what(kind, p),
                 side,
                 p.shape,
                 p.link.name,
-                _describe(p),
+                describe(p),
                 other=tops[1 - side],
                 counterpart=(names, back)[side].get(p.link.name, ""),
             )
@@ -366,10 +357,6 @@ def _match_others(state: _Comparing, kind: str, match: Match) -> None:
 
 def _contains(shapes: list[Placed], shape: Placed) -> bool:
     return any(other is shape for other in shapes)
-
-
-def _describe_what(kind: str, placed: Placed) -> str:
-    return f"{kind} '{placed.shape.name}'" if placed.shape.name else kind
 
 
 def _add(state: _Comparing, x: Placed, y: Placed, amount: float, note: str) -> None:
@@ -380,31 +367,14 @@ def _add(state: _Comparing, x: Placed, y: Placed, amount: float, note: str) -> N
         state.row,
         "link",
         (x.link.name, y.link.name),
-        _describe_what(kind, x),
-        (_describe(x), _describe(y)),
+        describe_what(kind, x),
+        (describe(x), describe(y)),
         "m",
         amount,
         (locate(x.shape, x.link), locate(y.shape, y.link)),
         note,
     )
     state.comparison.add(difference)
-
-
-def _describe(placed: Placed) -> str:
-    """Describe a shape with its size and its pose in the link."""
-    geometry = placed.geometry
-    lengths: list[float] = []
-    if isinstance(geometry, Mesh):
-        text = f"mesh {geometry.filename.rpartition('/')[2]}"
-        if geometry.scale != (1, 1, 1):
-            text, lengths = f"{text} ×", list(geometry.scale)
-    else:
-        facts = describe_shape(geometry)
-        text = facts.pop("shape")
-        if not isinstance(geometry, Plane):
-            lengths = [length for value in facts.values() for length in value]
-    at = describe_pose(get_origin_matrix(placed.shape.origin))
-    return " ".join((text, *(f"{length:.6g}" for length in lengths), "at", at))
 
 
 def _compare_surfaces(state: _Comparing, x: Placed, y: Placed) -> None:
@@ -453,7 +423,7 @@ def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
             "colors",
             "link",
             (x.link.name, y.link.name),
-            f"color of {_describe_what('visual', x)}",
+            f"color of {describe_what('visual', x)}",
             texts,
             "",
             amount,
