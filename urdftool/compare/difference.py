@@ -141,6 +141,7 @@ class Comparison:
         worst: Largest difference of each row; rows of which no robot has a part are absent.
         skipped: Rows that were not computed, with the reason.
         uncompared: Parts of computed rows that were not compared.
+        equal: Properties of both robots that do not differ.
     """
 
     rows: tuple[Row, ...]
@@ -151,6 +152,7 @@ class Comparison:
     worst: dict[str, float] = field(default_factory=dict)
     skipped: dict[str, str] = field(default_factory=dict)
     uncompared: list[Uncompared] = field(default_factory=list)
+    equal: list[Difference] = field(default_factory=list)
 
     @property
     def tolerances(self) -> dict[str, float]:
@@ -166,8 +168,7 @@ class Comparison:
         if not difference.is_convention:
             before = self.worst.get(difference.row, 0.0)
             self.worst[difference.row] = amount if amount != amount else max(before, amount)
-        if not amount <= tolerance:
-            self.differences.append(difference)
+        (self.equal if amount <= tolerance else self.differences).append(difference)
 
     def record_parts(self, row: str, *parts: object) -> None:
         """Record that a row compares something, if a robot has such parts."""

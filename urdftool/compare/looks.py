@@ -11,12 +11,13 @@ from ..model.appearance import (
     find_unknown_script,
     get_appearance,
 )
-from ..model.elements import Link, Robot, Visual
+from ..model.elements import Geometry, Link, Mesh, Robot, Visual
 from ..model.materials import resolve_material
 from ..model.settings import Settings
 from .difference import Comparison, Difference
 from .pair import Pair, locate
 from .settings import compare_settings
+from .uncompared import COLORED, IMAGES, Uncompared
 
 _FORMATS = ("urdf", "sdf")
 """Formats that have all values of the appearance; URDF in ``<gazebo>``."""
@@ -70,12 +71,15 @@ def _compare_images(
 
     MJCF and USD have the images in mesh files of URDF and SDF as materials.
     """
+    shapes = visuals[0].geometry, visuals[1].geometry
+    if is_colored_by_file(pair, shapes):
+        skip_file_colors(pair, comparison, "textures", shapes)
+        if not set(pair.formats) <= set(_FORMATS):
+            return
     sides = list(zip((pair.a.robot, pair.b.robot), visuals, strict=True))
     images = [_find_image(*side) for side in sides]
-    if not set(pair.formats) <= set(_FORMATS) and any(
-        pair.meshes.has_own_colors(robot, visual.geometry) for robot, visual in sides
-    ):
-        return
+    if images == [None, None]:
+        _skip_unread_images(pair, comparison, visuals)
     digests = [None if path is None else pair.meshes.get_digest(path) for path in images]
     comparison.record_parts("textures", *images)
     if digests[0] == digests[1]:
@@ -85,6 +89,42 @@ def _compare_images(
     if digests[0] != digests[1]:
         texts = ["" if path is None else path.name for path in images]
         _add(comparison, "textures", names, "image of a visual", texts, visuals)
+
+
+def _skip_unread_images(pair: Pair, comparison: Comparison, visuals: tuple[Visual, Visual]) -> None:
+    """Record the images of two visuals that no file that can be read has."""
+    for robot, visual in zip((pair.a.robot, pair.b.robot), visuals, strict=True):
+        material = resolve_material(robot, visual.material)
+        if material is not None and material.texture is not None:
+            name = material.texture or f"of material '{material.name}'"
+            reason = "it is missing or may not be read" if material.texture else "MuJoCo makes it"
+            comparison.record_uncompared(Uncompared("textures", IMAGES, name, reason))
+
+
+def is_colored_by_file(pair: Pair, shapes: tuple[Geometry | None, Geometry | None]) -> bool:
+    """Tell whether one of two shapes is a mesh file with colors of its own."""
+    sides = zip((pair.a.robot, pair.b.robot), shapes, strict=True)
+    return any(pair.meshes.has_own_colors(*side) for side in sides)
+
+
+def skip_file_colors(
+    pair: Pair,
+    comparison: Comparison,
+    row: str,
+    shapes: tuple[Geometry | None, Geometry | None],
+) -> None:
+    """Record that the colors and images in the files of two meshes are equal, or not compared."""
+    robots = pair.a.robot, pair.b.robot
+    one, two = shapes
+    if isinstance(one, Mesh) and isinstance(two, Mesh):
+        if pair.meshes.has_equal_looks(robots, (one, two)):
+            comparison.record_parts(row, [one])
+            return
+    for robot, shape in zip(robots, shapes, strict=True):
+        if isinstance(shape, Mesh) and pair.meshes.has_own_colors(robot, shape):
+            name = pair.meshes.name_file(robot, shape)
+            reason = "the colors and images in the file are not compared"
+            comparison.record_uncompared(Uncompared(row, COLORED, name, reason))
 
 
 def _get_settings(pair: Pair, robot: Robot, link: Link, visual: Visual) -> Settings:

@@ -15,9 +15,13 @@ from ..errors import PackageNotFound, UrdftoolError
 from ..extras import is_installed
 from ..geometry.image_file import open_image
 from ..geometry.load import load_mesh
+from ..geometry.reference_patterns import INIT_FROM, MAP, MTLLIB, URI
 from ..mechanics.reference import Array
 from ..model.elements import Geometry, Mesh, Robot
 from ..source.packages import shorten_path
+
+_NAMED = {".obj": MTLLIB, ".mtl": MAP, ".dae": INIT_FROM, ".gltf": URI}
+"""Expressions of the names of other files, by the suffix of a file."""
 
 _HEAD = 4096
 """Bytes of an OBJ in which its file of materials is named."""
@@ -119,6 +123,18 @@ class MeshMeasures:
             self._digests[str(path)] = sha256(path.read_bytes()).hexdigest()
         return self._digests[str(path)]
 
+    def has_equal_looks(self, robots: tuple[Robot, Robot], meshes: tuple[Mesh, Mesh]) -> bool:
+        """Tell whether two mesh files, and the files of colors that they name, are equal."""
+        paths = [self.find(*side) for side in zip(robots, meshes, strict=True)]
+        if paths[0] is None or paths[1] is None:
+            return self.names_one_file(robots, meshes)
+        one, two = (
+            _digest_with_named(robot, path, 0)
+            for robot, path in zip(robots, paths, strict=True)
+            if path is not None
+        )
+        return one == two
+
     def get_pixel_digest(self, path: Path) -> str:
         """Return a digest of the pixels of an image; of its file if it cannot be decoded."""
         if not is_installed("PIL"):
@@ -174,6 +190,22 @@ class MeshMeasures:
                 if not len(faces):
                     self._reasons[key[0]] = "has no triangles"
         return self._read[key]
+
+
+def _digest_with_named(robot: Robot, path: Path, depth: int) -> bytes:
+    """Return a digest of a file and those that it names; of a file that is not read, its path."""
+    try:
+        data = (
+            path.read_bytes() if robot.source is None else robot.source.workspace.read_bytes(path)
+        )
+    except (OSError, ValueError):
+        return os.path.normpath(path).encode()
+    found = sha256(data).digest()
+    pattern = _NAMED.get(path.suffix.lower())
+    for name in dict.fromkeys(pattern.findall(data)) if pattern and depth < 2 else ():
+        other = path.parent / name.decode("utf-8", "replace").strip().replace("\\", "/")
+        found = sha256(found + _digest_with_named(robot, other, depth + 1)).digest()
+    return found
 
 
 def _locate(robot: Robot, mesh: Mesh) -> tuple[Path, str]:

@@ -14,9 +14,12 @@ from .declared import compare_declared
 from .difference import Comparison, Difference
 from .mesh_measure import MeshMeasures
 from .names import Line, get_pair
-from .rows import ROWS, Row
+from .rows import EQUIPMENT_ROWS, ROWS, Row
 
 Key = tuple[str, str, str, str]
+
+_BY_PART = (*EQUIPMENT_ROWS, "textures")
+"""Rows whose equal values are not recorded."""
 
 
 @dataclass
@@ -31,9 +34,11 @@ class Disagreement:
         unit: Unit of the values.
         note: Explanation of the first difference.
         is_convention: Whether it is a convention only.
-        values: Value in each robot; None where there is none.
+        values: Value in each robot; None where there is none, or none was compared.
         places: Location in each file; None where there is none.
         pairs: Numbers of the robots that differ from each other.
+        compared: Numbers of the robots whose value was compared.
+        is_complete: Whether every pair of the robots was compared in this row.
     """
 
     row: str
@@ -46,12 +51,21 @@ class Disagreement:
     values: list[object]
     places: list[Place | None]
     pairs: list[tuple[int, int]] = field(default_factory=list)
+    compared: set[int] = field(default_factory=set)
+    is_complete: bool = True
+
+    def set_side(self, number: int, difference: Difference, side: int) -> None:
+        """Set the value and place of a robot, which is one of the two of a difference."""
+        self.values[number] = difference.values[side]
+        self.compared.add(number)
+        if difference.places[side].file.path:
+            self.places[number] = difference.places[side]
 
     @property
     def alone(self) -> int | None:
         """Return the number of the robot that differs from all others, which agree; or None."""
         count = len(self.values)
-        if count < 3:
+        if count < 3 or not self.is_complete:
             return None
         for number in range(count):
             others = [pair for pair in self.pairs if number not in pair]
@@ -93,10 +107,16 @@ class Agreement:
                     entry = found[key] = _make_entry(difference, key[2], self.count)
                 entry.pairs.append((i, j))
                 for side, number in enumerate((i, j)):
-                    entry.values[number] = difference.values[side]
-                    if difference.places[side].file.path:
-                        entry.places[number] = difference.places[side]
+                    entry.set_side(number, difference, side)
+        for (i, j), comparison in self.pairs.items() if self.count > 2 else ():
+            for difference in comparison.equal:
+                entry = found.get(self._get_key(i, difference))
+                for side, number in enumerate((i, j) if entry is not None else ()):
+                    if entry is not None and number not in entry.compared:
+                        entry.set_side(number, difference, side)
         for entry in found.values():
+            reasons = (one.explain_skipped(entry.row) for one in self.pairs.values())
+            entry.is_complete = not any(reasons)
             self._complete(entry)
         order = {row.name: number for number, row in enumerate(self.rows)}
         return sorted(found.values(), key=lambda entry: order[entry.row])
@@ -111,12 +131,18 @@ class Agreement:
         return difference.row, difference.kind, name, difference.what
 
     def _complete(self, entry: Disagreement) -> None:
-        """Set the value of robots that agree with one whose value is known."""
-        differing = {number for pair in entry.pairs for number in pair}
-        for i, j in self.pairs:
-            if (i, j) not in entry.pairs and (i in differing) != (j in differing):
-                known, new = (i, j) if i in differing else (j, i)
+        """Set the value of robots that have the same part as one whose value is known.
+
+        Parts that two robots have are not recorded one by one, unlike values.
+        """
+        is_part = entry.row in _BY_PART or None in [entry.values[n] for n in entry.compared]
+        for (i, j), comparison in self.pairs.items() if is_part else ():
+            if comparison.explain_skipped(entry.row) or (i, j) in entry.pairs:
+                continue
+            if (i in entry.compared) != (j in entry.compared):
+                known, new = (i, j) if i in entry.compared else (j, i)
                 entry.values[new] = entry.values[known]
+                entry.compared.add(new)
 
 
 def _make_entry(difference: Difference, name: str, count: int) -> Disagreement:

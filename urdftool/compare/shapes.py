@@ -28,7 +28,7 @@ from ..model.shapes import get_shape_name
 from .bodies import Bodies, Body
 from .difference import Comparison, Difference
 from .frames import format_vector, invert, measure_largest
-from .looks import compare_looks
+from .looks import compare_looks, is_colored_by_file, skip_file_colors
 from .mesh_measure import Measure, measure_distance
 from .pair import Match, Pair, add_presence, locate
 from .placed import Placed, describe, describe_what, get_size
@@ -399,10 +399,8 @@ def _compare_color(state: _Comparing, x: Placed, y: Placed) -> bool:
     robots = state.pair.a.robot, state.pair.b.robot
     if "sdf" in state.pair.formats and any(_has_script(placed) for placed in (x, y)):
         return False
-    if any(
-        state.pair.meshes.has_own_colors(robot, placed.geometry)
-        for robot, placed in zip(robots, (x, y), strict=True)
-    ):
+    if is_colored_by_file(state.pair, (x.geometry, y.geometry)):
+        skip_file_colors(state.pair, state.comparison, "colors", (x.geometry, y.geometry))
         return False
     shown = [
         _find_material(state.pair, robot, placed)

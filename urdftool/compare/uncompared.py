@@ -5,8 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-MESHES = "mesh", "meshes"
+MESHES = "mesh not read", "meshes not read"
 """Kind of the meshes whose surface was not measured: nothing is known of the shape then."""
+
+COLORED = "mesh with colors of its own", "meshes with colors of their own"
+"""Kind of the meshes whose file has colors and images, which are not read."""
+
+IMAGES = "image not read", "images not read"
+"""Kind of the images of materials."""
 
 
 class Uncompared(NamedTuple):
@@ -36,4 +42,4 @@ def explain_row(parts: Iterable[Uncompared], row: str) -> str:
 
 def _explain(kind: tuple[str, str], parts: Sequence[Uncompared]) -> str:
     first, count = parts[0], len(parts)
-    return f"{count} {kind[count > 1]} not read: {first.name}, {first.reason}"
+    return f"{count} {kind[count > 1]}: {first.name}, {first.reason}"

@@ -120,7 +120,8 @@ def _group(entries: Sequence[Disagreement]) -> list[list[Disagreement]]:
     groups: dict[object, list[Disagreement]] = {}
     for number, entry in enumerate(entries):
         shown = tuple(map(_format_value, entry.values))
-        key = entry.row, entry.kind, entry.what, entry.unit, entry.note, shown
+        of = entry.row, entry.kind, entry.what, entry.unit, entry.note
+        key = *of, shown, frozenset(entry.compared)
         groups.setdefault(key if entry.name else number, []).append(entry)
     found = []
     for group in groups.values():
@@ -151,7 +152,7 @@ def _format_entry(entry: Disagreement, owner: str) -> str:
     for number, (value, place) in enumerate(zip(entry.values, entry.places, strict=True)):
         if entry.kind == "robot":
             continue
-        shown = _format_value(value)
+        shown = _format_value(value) if number in entry.compared else "not compared"
         where = f"  {place}" if place is not None else ""
         alone = "  (alone)" if entry.alone == number else ""
         text += f"  {LETTERS[number]}  {shown}{where}{alone}\n"

@@ -231,6 +231,7 @@ def _list_materials(spec: Any, model: Any, _: Any) -> list[Row]:
         row = {**_make_row(material), "rgba": model.mat_rgba[i].tolist()}
         named = [name for name in material.textures if name]
         row["texture"] = next((files[name] for name in named if files.get(name)), "")
+        row["is_textured"] = bool(named)
         rows.append(row)
     return rows
 

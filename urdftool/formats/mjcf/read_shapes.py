@@ -136,7 +136,11 @@ def _read_material(context: Context, row: Row, written: Written) -> tuple[Materi
         return Material(written, "", tuple(rgba)), rgba[3]
     material = context.list_rows("material")[row["matid"]]
     color = material["rgba"] if rgba == _PLAIN else rgba
-    texture = material["texture"] or None
+    texture = material["texture"] or ("" if material["is_textured"] else None)
+    if texture == "":
+        text = "textures that MuJoCo makes are not read"
+        place = context.get_place(material).place
+        context.losses.add("made-texture", text, material["name"], place, Severity.INFO)
     name = material["name"] if color == material["rgba"] else ""
     named = Material(context.get_place(material), name, tuple(color), texture)
     return named, color[3]

@@ -119,7 +119,7 @@ def _add_material(
     """Add a material with its own color or texture; one by name is resolved."""
     full = resolve_material(robot, material)
     color, texture = (None, None) if full is None else (full.color, full.texture)
-    place = None if texture is None else meshes.get_place(texture)
+    place = meshes.get_place(texture) if texture else None
     if color == UNCOLORED.get(robot.format) and not material.name:
         color = None
     if color is None and place is None:
