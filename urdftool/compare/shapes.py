@@ -211,13 +211,13 @@ def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
 def _record_unread(state: _Comparing, x: Placed, y: Placed) -> None:
     """Record the meshes of two equal shapes that were not read, but for one file of both."""
     robots, meshes = (state.pair.a.robot, state.pair.b.robot), state.pair.meshes
-    shapes = x.geometry, y.geometry
-    if not isinstance(shapes[0], Mesh) or not isinstance(shapes[1], Mesh):
+    one, two = x.geometry, y.geometry
+    if not isinstance(one, Mesh) or not isinstance(two, Mesh):
         return
     same_axes = _get_up(robots[0]) == _get_up(robots[1])
-    if same_axes and meshes.names_one_file(robots, shapes):
+    if same_axes and meshes.names_one_file(robots, (one, two)):
         return
-    for robot, mesh in zip(robots, shapes, strict=True):
+    for robot, mesh in zip(robots, (one, two), strict=True):
         reason = meshes.explain_unread(robot, mesh)
         if reason:
             part = Uncompared(state.row, MESHES, meshes.name_file(robot, mesh), reason)

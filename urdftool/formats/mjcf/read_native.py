@@ -65,6 +65,7 @@ def _mark_held(robot: Robot) -> None:
     parts: tuple[Sequence[Part], ...] = (
         *(robot.joint_actuators, robot.mounted_sensors, robot.closures, robot.exclusions),
         robot.configurations,
+        [joint.mimic for joint in robot.joints if joint.mimic is not None],
     )
     held = {part.place for of_kind in parts for part in of_kind}
     for element in robot.native:
