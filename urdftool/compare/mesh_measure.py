@@ -110,7 +110,7 @@ class MeshMeasures:
         path, uri = _locate(robot, mesh)
         return uri or shorten_path(path)
 
-    def names_one_file(self, robots: tuple[Robot, Robot], meshes: tuple[Mesh, Mesh]) -> bool:
+    def is_one_file(self, robots: tuple[Robot, Robot], meshes: tuple[Mesh, Mesh]) -> bool:
         """Tell whether two meshes are one file, which need not exist, with one scale."""
         if meshes[0].scale != meshes[1].scale:
             return False
@@ -127,7 +127,7 @@ class MeshMeasures:
         """Tell whether two mesh files, and the files of colors that they name, are equal."""
         paths = [self.find(*side) for side in zip(robots, meshes, strict=True)]
         if paths[0] is None or paths[1] is None:
-            return self.names_one_file(robots, meshes)
+            return self.is_one_file(robots, meshes)
         one, two = (
             _digest_with_named(robot, path, 0)
             for robot, path in zip(robots, paths, strict=True)

@@ -94,7 +94,7 @@ def _list_shapes(
 
 def _match_equal(state: _Comparing) -> None:
     """Remove the shapes that are equal in both bodies, the nearest of equal looks first."""
-    pairs = _prefer_equal_looks(
+    pairs = _sort_by_looks(
         state,
         [
             (distance, i, j)
@@ -139,7 +139,7 @@ def _find_repeated(state: _Comparing, i: int, j: int, *, is_first: bool) -> tupl
     return min((pair, *equal), key=lambda two: _count_differences(state, *two))
 
 
-def _prefer_equal_looks(
+def _sort_by_looks(
     state: _Comparing, pairs: list[tuple[float, int, int]]
 ) -> list[tuple[float, int, int]]:
     """Return pairs of shapes, the nearest first, of those at one place the most similar first.
@@ -215,7 +215,7 @@ def _record_unread(state: _Comparing, x: Placed, y: Placed) -> None:
     if not isinstance(one, Mesh) or not isinstance(two, Mesh):
         return
     same_axes = _get_up(robots[0]) == _get_up(robots[1])
-    if same_axes and meshes.names_one_file(robots, (one, two)):
+    if same_axes and meshes.is_one_file(robots, (one, two)):
         return
     for robot, mesh in zip(robots, (one, two), strict=True):
         reason = meshes.explain_unread(robot, mesh)
