@@ -460,22 +460,15 @@ class Packages:
             PackageNotFound: The package was not found.
             AccessError: The file exists, and the description may not read it.
         """
-        path = self._find_file(uri, relative_to)
+        path = self.locate(uri, relative_to)
         reason = self.access.explain_refusal(path) if self.files.exists_or_is_link(path) else ""
         if reason:
             message = f"{shorten_path(path)} {reason}"
             raise AccessError(message, data={"reason": reason})
         return path
 
-    def locate(self, uri: str) -> Path:
-        """Return the place of a file, which may not exist, and which is not read.
-
-        Raises:
-            PackageNotFound: The package was not found.
-        """
-        return self._find_file(uri, None)
-
-    def _find_file(self, uri: str, relative_to: str | Path | None) -> Path:
+    def locate(self, uri: str, relative_to: str | Path | None = None) -> Path:
+        """Return the place of a file, which is not read, as :meth:`resolve` does."""
         scheme, separator, rest = uri.partition("://")
         if separator and scheme in ("package", "model"):
             name, _, inner = rest.lstrip("/").partition("/")
