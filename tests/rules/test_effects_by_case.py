@@ -50,6 +50,7 @@ def effects_of(tmp_path, rule, text):
 
 PLANAR = _robot(HEAVY, kind="planar", limit=f'{LIMIT}<dynamics damping="1"/>')
 NEGATIVE, MASSLESS = (INERTIAL.format(mass=mass, moment=0.01) for mass in (-1, 0))
+ROLLING = _robot(HEAVY, base="BASE").replace('"mid"', '"left_wheel"')
 HELD = _robot(MASSLESS, kind="fixed").replace(
     "</robot>",
     '<link name="world"/><joint name="w" type="fixed"><parent link="world"/><child link="base"/>'
@@ -111,7 +112,7 @@ def test_missing_inertial(tmp_path, robot, gazebo, mujoco):
     ("robot", "keys"),
     [
         (_robot(NOTHING + COLLISION), {"gz, gazebo-classic", "mujoco"}),
-        (_robot(HEAVY, base=NOTHING), {"gz, gazebo-classic", "pybullet"}),
+        (ROLLING.replace("BASE", NOTHING), {"gz, gazebo-classic", "pybullet"}),
         (
             _robot(INERTIAL.format(mass=0, moment=0.1), kind="fixed"),
             {"gz, gazebo-classic, pinocchio", "mujoco", "drake"},
