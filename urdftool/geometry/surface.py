@@ -70,6 +70,8 @@ def measure_surface(vertices: Points, faces: Faces) -> Surface:
     sliver = np.linalg.norm(normals, axis=1) <= 1e-12 * extent**2
     centered = corners - points.mean(axis=0)
     volume = np.einsum("ij,ij->", centered[:, 0], np.cross(centered[:, 1], centered[:, 2])) / 6
+    if abs(volume) <= 1e-9 * extent**3:
+        volume = 0.0  # two sides of one sheet
     return Surface(len(merged), edges.open_count, int(sliver.sum()), edges.cycle, float(volume))
 
 

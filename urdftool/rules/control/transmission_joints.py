@@ -23,7 +23,7 @@ from ..gazebo.lumping import is_lumped
 from ..joint.range import is_locked
 from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from .dependence import OF_ROS2, depends_on_control
-from .transmissions import describe_transmission
+from .transmissions import describe_transmission, has_own_hardware
 
 APPLIES_TO = ("transmission", "plugin")
 
@@ -42,8 +42,11 @@ def transmission_on_immovable_joint(robot: Robot) -> Iterator[Problem]:
     """A transmission drives a fixed joint.
 
     A fixed joint cannot move, and Gazebo removes it by fixed joint lumping. The finding is an error
-    if the ``gazebo_ros_control`` plugin reads the transmission, and a warning in other cases.
+    if the ``gazebo_ros_control`` plugin reads the transmission, and a warning in other cases. A
+    robot whose plugin names another hardware than the default is not reported.
     """
+    if has_own_hardware(robot):
+        return
     loaded = any("gazebo_ros_control" in plugin.filename for plugin in robot.plugins)
     for transmission in robot.transmissions:
         for joint in transmission.joints:

@@ -29,6 +29,12 @@ APPLIES_TO = ("transmission", "plugin")
 JOINT_INTERFACES = ("EffortJointInterface", "PositionJointInterface", "VelocityJointInterface")
 
 
+def has_own_hardware(robot: Robot) -> bool:
+    """Tell whether gazebo_ros_control loads another hardware than the default, such as franka's."""
+    names = (plugin.element.find_child("robotSimType") for plugin in robot.plugins)
+    return any(name is not None and "DefaultRobotHWSim" not in name.text for name in names)
+
+
 def describe_transmission(transmission: Transmission) -> str:
     """Describe a transmission by its name, or by its first joint."""
     if transmission.name:
@@ -310,8 +316,11 @@ def duplicate_transmission(robot: Robot) -> Iterator[Problem]:
     """Two transmissions have the same name, or drive the same joint.
 
     Names of transmissions must be unique. Of two simple transmissions for one joint,
-    ``gazebo_ros_control`` uses the second, with a warning.
+    ``gazebo_ros_control`` uses the second, with a warning. A robot whose plugin names another
+    hardware than the default is not reported.
     """
+    if has_own_hardware(robot):
+        return
     names: set[str] = set()
     joints: dict[str, str] = {}
     for transmission in robot.transmissions:

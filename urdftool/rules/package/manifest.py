@@ -298,13 +298,18 @@ def install_directory(problem: Problem, context: FixContext) -> Proposal | None:
         "gz, gazebo-classic": "look for model://NAME/…, which requires an exported path",
     },
 )
-def gazebo_path_not_exported(robot: Robot, description: Description) -> Iterator[Problem]:
+def gazebo_path_not_exported(
+    robot: Robot, description: Description, targets: frozenset[str]
+) -> Iterator[Problem]:
     """The package does not export a model path for Gazebo.
 
     Gazebo reads ``package://NAME/`` as ``model://NAME/``, and searches the paths in
     ``GAZEBO_MODEL_PATH`` or ``GZ_SIM_RESOURCE_PATH``. The ``<export>`` of ``package.xml``, or a
-    launch file, must add the package to them.
+    launch file, must add the package to them. Robots for ROS 1 alone are not reported: its
+    ``spawn_model`` replaces ``package://NAME`` by the folder of the package.
     """
+    if "ros1" in targets and "ros2" not in targets:
+        return
     own = description.packages.own
     if own is None or "model_path" in read_manifest_text(description.workspace, own[1]):
         return
