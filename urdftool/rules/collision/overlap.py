@@ -71,8 +71,9 @@ def self_collision_at_zero(
     range, as in MoveIt, and the message names it; MuJoCo starts it at zero. ``deeper`` [m] is the
     tolerated overlap. One finding counts the pairs, the deepest first, and a second one the pairs
     that include the convex hull of a mesh. It is a warning if the center of a link is in another of
-    similar size, and the overlap is more than ``deep`` [m]. Other overlaps of a robot that drives,
-    walks or flies are reported if MuJoCo reads its collisions, or if it has an SRDF.
+    similar size, and the overlap is more than ``deep`` [m]. Other overlaps are reported for the
+    targets MoveIt and MuJoCo; those of a robot that drives, walks or flies if MuJoCo reads its
+    collisions, or if it has an SRDF.
     """
     loaded = ("mujoco (loaded)",) if reads_collisions(robot) else ()
     found = remove_intended(robot, description, find_resting_overlaps(robot, deeper))
@@ -90,7 +91,8 @@ def self_collision_at_zero(
         if inside:
             yield _report_overlap(robot, inside, readers, what, WARNING)
         rest = [pair for pair in pairs if pair not in inside]
-        if rest and readers:  # of MoveIt the hulls say nothing
+        # of MoveIt the hulls say nothing; without a reader that is known, nobody would act
+        if rest and readers and not targets.isdisjoint(("moveit", "mujoco")):
             yield _report_overlap(robot, rest, readers, what, None if "moveit" in readers else INFO)
 
 
