@@ -1,5 +1,6 @@
 """``urdftool collision`` in trouble: full disks, killed workers, odd meshes."""
 
+import json
 import os
 import resource
 import signal
@@ -114,11 +115,30 @@ def test_sizes_beyond_all_bounds_are_said(urdftool, write):
     huge = huge.replace("</robot>", shape_of("c", "1e308 1 1") + joint_to("c") + "</robot>")
     write("r.urdf", huge)
     done = urdftool("collision", "r.urdf", "--check", "--no-cache", "-j", "1")
-    assert done.code == 1
+    assert done.code == 2
     assert "link 'c': its box reaches 1e+308 m, which is not measured" in done.err
     done = urdftool("collision", "r.urdf", "-o", "o.urdf", "--no-cache", "-j", "1")
     assert done.code == 2
     assert "e+299 m from its origin; the file or its scale is damaged" in done.err
+
+
+def test_a_mesh_that_is_not_read_has_no_verdict(urdftool, write):
+    """Links that were measured, have no collision, or name a missing mesh are counted apart."""
+    bare = shape_of("c", "1 1 1").replace("collision>", "unknown>")
+    text = '<robot name="r">' + shape_of("a", "1 1 1") + bare + joint_to("c")
+    missing = shape_of("b", "1 1 1").replace('box size="1 1 1"', 'mesh filename="gone.stl"')
+    write("r.urdf", text + missing + joint_to("b") + "</robot>")
+    done = urdftool("collision", "r.urdf", "--check", "-j", "1")
+    assert done.code == 2
+    assert "gone.stl: there is no such mesh file" in done.err
+    assert "3 links with visuals, 0 with an error above 5.00%, 1 without collision" in done.err
+    assert "geometry, 1 not measured" in done.err
+    assert [line.split()[:2] for line in done.out.splitlines()[1:]] == [
+        *(["a", "ok"], ["c", "BAD"], ["b", "-"]),
+    ]
+    done = urdftool("collision", "r.urdf", "--check", "-j", "1", "--format", "json")
+    links = json.loads(done.out)["results"][0]["links"]
+    assert [link["within"] for link in links] == [True, False, None]
 
 
 def shape_of(name, size):

@@ -391,3 +391,22 @@ def test_an_argument_that_serves_more_than_inertia_is_left(urdftool, xacro_file)
     done = fill(urdftool, path, "--all", "--mass", "a=6", code=1)
     assert 'value="${m}" is computed' in done.err
     assert Path(path).read_text() == before
+
+
+@pytest.mark.parametrize(
+    ("moments", "reason"),
+    [
+        ((2e-4, 2e-4, 2e-4), "its center of mass or inertia does not fit into its geometry"),
+        ((2e-5, 2e-5, 2e-4), "its inertial is physically inconsistent"),
+        ((1, 1, 1), "its inertia is a placeholder"),
+    ],
+)
+def test_the_reason_for_which_a_link_is_left_is_that_of_its_fault(urdftool, write, moments, reason):
+    ixx, iyy, izz = moments
+    tensor = f'<inertia ixx="{ixx}" ixy="0" ixz="0" iyy="{iyy}" iyz="0" izz="{izz}"/>'
+    shape = '<collision><geometry><box size="0.02 0.02 0.1"/></geometry></collision>'
+    text = f'<link name="a"><inertial><mass value="0.2"/>{tensor}</inertial>{shape}</link>'
+    path = write("r.urdf", f'<robot name="r">{text}</robot>')
+    done = fill(urdftool, path, code=1)
+    assert f"link 'a' is left as it is: {reason}; --all recomputes it" in done.err
+    assert "0 links written, 1 left" in done.err

@@ -39,7 +39,8 @@ class Checked:
         link: Name of the link.
         measures: As :meth:`Measures.as_dict`, with each mesh as written; None if there is nothing
             to compare.
-        trouble: Reason why it could not be measured, or empty.
+        trouble: Reason why it was not measured, or empty.
+        lacks_collision: Whether that is the reason: the link has no collision geometry.
         concave: Number of collision meshes that are not convex.
         hull_error: Error if engines use the hulls of those, as PyBullet and MuJoCo do for moving
             bodies; None if there are none.
@@ -50,6 +51,12 @@ class Checked:
     trouble: str = ""
     concave: int = 0
     hull_error: float | None = None
+    lacks_collision: bool = False
+
+    @property
+    def is_unmeasured(self) -> bool:
+        """Tell whether nothing is known: shapes of the link could not be read or measured."""
+        return self.measures is None and not self.lacks_collision
 
 
 @dataclass(frozen=True)
@@ -72,6 +79,11 @@ class Look:
     collisions: tuple[Part, ...]
     trouble: str = ""
     max_error: float = 0.05
+
+    @property
+    def lacks_collision(self) -> bool:
+        """Tell whether the link has visuals, and no collision geometry."""
+        return bool(self.visuals) and not self.collisions
 
 
 def look_at(robot: Robot, link: Link, max_error: float = 0.05) -> Look | None:
@@ -126,7 +138,7 @@ def _make_failure(look: Look, _: Loss) -> Checked:
 def check_link(look: Look) -> Checked:
     """Measure the collision geometry of a link; errors become ``Checked.trouble``."""
     if look.trouble:
-        return Checked(look.link, None, look.trouble)
+        return Checked(look.link, None, look.trouble, lacks_collision=look.lacks_collision)
     try:
         visual = _prepare_visual(look.visuals)
         if visual is None:

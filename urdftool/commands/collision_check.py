@@ -74,9 +74,7 @@ def _report(
         )
         return 2
     report_gltf_axes(console, robot)
-    bad = sum(not report.is_good(item, limit) for item in found)
-    console.print_note(
-        f"{path}: {format_count(len(found), 'link')} with visuals, {bad} with an error above "
-        f"{limit:.2%}"
-    )
-    return int(bad > 0)
+    console.print_note(f"{path}: {report.summarize(found, limit)}")
+    if any(item.is_unmeasured for item in found):
+        return 2
+    return int(not all(report.is_good(item, limit) for item in found))

@@ -102,6 +102,22 @@ def fill(
     return filling
 
 
+_REASONS = {
+    "box": "its center of mass or inertia does not fit into its geometry",
+    "copied": "its inertia is the same about every axis, that of its geometry is not",
+    "placeholder": "its inertia is a placeholder",
+    "unreadable": "one of its numbers cannot be read",
+}
+"""Reasons of faults of an inertial that may be physically consistent."""
+
+
+def _describe_fault(item: LinkReview) -> str:
+    """Describe the worst fault of an inertial; an inconsistent one comes first."""
+    codes = [fault.code for fault in item.faults]
+    known = [_REASONS[code] for code in codes if code in _REASONS]
+    return known[0] if len(known) == len(codes) else "its inertial is physically inconsistent"
+
+
 def _determine_edits(
     item: LinkReview, filling: Filling, masses: Masses, robot: Robot
 ) -> LinkEdits | None:
@@ -113,7 +129,7 @@ def _determine_edits(
     if not masses.recompute and not item.missing:
         filling.unchanged.append(name)
         if item.faults:
-            left("its inertial is physically inconsistent; --all recomputes it")
+            left(f"{_describe_fault(item)}; --all recomputes it")
         elif name in masses.by_link and item.link.mass != masses.by_link[name]:
             left(f"it has a mass of {item.link.mass:g} kg; --all replaces it")
         return None

@@ -7,6 +7,7 @@ from typing import Any
 
 from ..collision.check import Checked
 from .collision import format_millimeters
+from .counted import format_count
 from .tables import render_table
 
 
@@ -23,7 +24,7 @@ def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]
         "links": [
             {
                 "link": item.link,
-                "within": is_good(item, limit),
+                "within": None if item.is_unmeasured else is_good(item, limit),
                 "measures": item.measures,
                 "concave_meshes": item.concave,
                 "hull_error": item.hull_error,
@@ -42,7 +43,7 @@ def format_table(found: Sequence[Checked], limit: float) -> str:
         ("", "", "pieces", "triangles", "error", "reach", "excess", "volume", "outside")
     ]
     for item in found:
-        verdict = "ok" if is_good(item, limit) else "BAD"
+        verdict = "-" if item.is_unmeasured else "ok" if is_good(item, limit) else "BAD"
         m = item.measures
         if m is None:
             lines.append((item.link, verdict, *["-"] * 7))
@@ -78,3 +79,16 @@ def format_remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
                 f"link '{item.link}': {item.concave} collision mesh{'es' * (item.concave > 1)} not "
                 f"convex; PyBullet and MuJoCo touch the hull, whose error is {item.hull_error:.2%}"
             )
+
+
+def summarize(found: Sequence[Checked], limit: float) -> str:
+    """Summarize how many links were measured, and with which result."""
+    above = sum(item.measures is not None and not is_good(item, limit) for item in found)
+    lacking = sum(item.lacks_collision for item in found)
+    unmeasured = sum(item.is_unmeasured for item in found)
+    text = (
+        f"{format_count(len(found), 'link')} with visuals, {above} with an error above {limit:.2%}"
+    )
+    if lacking:
+        text += f", {lacking} without collision geometry"
+    return text + (f", {unmeasured} not measured" if unmeasured else "")

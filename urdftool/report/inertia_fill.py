@@ -54,8 +54,9 @@ def summarize(filling: Filling, files: Sequence[str]) -> str:
     """Summarize the counts and the changed files."""
     count = len(filling.written)
     parts = [f"{format_count(count, 'link')} written"]
-    if filling.unchanged:
-        parts.append(f"{len(filling.unchanged)} as they were")
+    left = {refusal.link for refusal in filling.left}
+    if unchanged := sum(name not in left for name in filling.unchanged):
+        parts.append(f"{unchanged} as {'it was' if unchanged == 1 else 'they were'}")
     if filling.left:
         parts.append(f"{len(filling.left)} left")
     if filling.refused:

@@ -52,10 +52,16 @@ def _format_one(robot: Robot, verdict: Verdict, paint: Painter) -> Iterator[str]
 
 def _format_headline(robot: Robot, verdict: Verdict, paint: Painter) -> str:
     name = escape_controls(robot.name) or "the robot"
+    gaps = f"; {describe_gaps(verdict.gaps)}" if verdict.gaps else ""
     if verdict.passes:
-        return f"{name}: {paint(describe_outcome(verdict), 'green', bold=True)}"
+        return f"{name}: {paint(describe_outcome(verdict), 'green', bold=True)}{gaps}"
     kinds = ", ".join(dict.fromkeys(fault.code for fault in verdict.faults if fault.fails))
-    return f"{name}: {paint(describe_outcome(verdict), 'red', bold=True)} ({kinds})"
+    return f"{name}: {paint(describe_outcome(verdict), 'red', bold=True)} ({kinds}){gaps}"
+
+
+def describe_gaps(gaps: Sequence[Fault]) -> str:
+    """Describe the remarks that name what no check looked at, one for each link."""
+    return f"visuals of {format_count(len(gaps), 'link')} not read"
 
 
 def describe_outcome(verdict: Verdict) -> str:
@@ -141,7 +147,9 @@ def _format_faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:
 def _format_several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -> Iterator[str]:
     good = sum(verdict.stands for verdict in verdicts)
     word = paint(f"{good} of {len(verdicts)}", "green" if good == len(verdicts) else "red")
-    yield f"{escape_controls(robot.name) or 'the robot'}: stands in {word} trials"
+    yield f"{escape_controls(robot.name) or 'the robot'}: stands in {word} trials" + (
+        f"; {describe_gaps(verdicts[0].gaps)}" if verdicts[0].gaps else ""
+    )
     seen: dict[tuple[str, str], tuple[Fault, list[int]]] = {}
     for number, verdict in enumerate(verdicts, 1):
         tilt = math.degrees(math.hypot(*verdict.run.settings.start_rpy[:2]))

@@ -42,7 +42,9 @@ def summarize(rows: Sequence[Row]) -> str:
         "skipped": sum(bool(row.skipped) for row in rows),
     }
     words = ", ".join(f"{count} {what}" for what, count in counts.items() if count)
-    return f"{len(rows)} robot{'s' * (len(rows) != 1)}: {words or 'none'}"
+    unread = sum(any(fault.is_gap for fault in row.faults) for row in rows)
+    gaps = f"; {unread} of them with visuals that were not read" if unread else ""
+    return f"{len(rows)} robot{'s' * (len(rows) != 1)}: {words or 'none'}{gaps}"
 
 
 def _get_verdict_word(row: Row) -> tuple[str, str]:
@@ -66,7 +68,7 @@ def _format_what(row: Row) -> str:
         return escape_controls(row.skipped)
     kinds: dict[str, list[str]] = {}
     for fault in row.faults:
-        if fault.fails or (fault.is_warning and row.passes):
+        if fault.fails or fault.is_gap or (fault.is_warning and row.passes):
             kinds.setdefault(fault.code, []).append(fault.name)
     return ", ".join(
         f"{kind} ({escape_controls(names[0])}{', …' if len(names) > 1 else ''})"

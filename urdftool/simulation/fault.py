@@ -18,6 +18,9 @@ FALLEN = frozenset(
 )
 """Kinds of faults of a robot that does not stand; the others are errors in its file."""
 
+NOT_CHECKED = frozenset({"visual-not-read"})
+"""Kinds of remarks that name what no check looked at."""
+
 
 @dataclass(slots=True)
 class Fault(Diagnostic):
@@ -62,6 +65,11 @@ class Fault(Diagnostic):
     def is_warning(self) -> bool:
         """Tell whether it concerns masses or inertia in the file; it fails with ``--strict``."""
         return self.severity is Severity.WARNING
+
+    @property
+    def is_gap(self) -> bool:
+        """Tell whether it names what no check looked at."""
+        return self.code in NOT_CHECKED
 
     @property
     def fell(self) -> bool:

@@ -79,6 +79,18 @@ def get_outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
 
     Their bounding box is that of the mesh, and their hull almost as large.
     """
+    found = _read_outermost_points(robot, geometry)
+    return None if isinstance(found, UrdftoolError) else found
+
+
+def explain_unread(robot: Robot, geometry: Mesh) -> UrdftoolError | None:
+    """Return the error for which the outermost points of a mesh are not known; None if they are."""
+    found = _read_outermost_points(robot, geometry)
+    return found if isinstance(found, UrdftoolError) else None
+
+
+def _read_outermost_points(robot: Robot, geometry: Mesh) -> Points | UrdftoolError:
+    """Read the outermost points of a mesh once, or return the error."""
 
     def make() -> list[Cloud]:
         assert robot.source is not None
@@ -89,13 +101,13 @@ def get_outermost_points(robot: Robot, geometry: Mesh) -> Points | None:
             points = select_extreme_points(load_triangles(robot, geometry).vertices)
         return [(points, np.zeros((0, 3), dtype=np.int64))]
 
-    def read() -> Points | None:
+    def read() -> Points | UrdftoolError:
         if robot.source is None:
-            return None
+            return UrdftoolError("the robot was not read from a file")
         try:
             ((points, _),) = get_cached_hulls(robot, geometry, "points", make)
-        except UrdftoolError:
-            return None
+        except UrdftoolError as error:
+            return error
         return points
 
     return compute_once(robot, ("outermost", geometry.filename, geometry.scale), read)

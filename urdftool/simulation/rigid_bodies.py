@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..inertia.requirements import combine
-from ..mechanics.spatial_inertia import SpatialInertia, link_inertia
+from ..mechanics.spatial_inertia import SpatialInertia, combine, link_inertia
 from ..model.actuation import find_actuated_joints
 from ..model.elements import ZERO, Joint, Link, Robot
 from ..model.kinematics import find_movable_joints, get_limits, link_poses
@@ -263,15 +262,15 @@ def link_mass_properties(link: Link) -> SpatialInertia | None:
 def _make_properties(
     robot: Robot, places: Mapping[str, Pose], payloads: Mapping[str, float]
 ) -> SpatialInertia | None:
+    """Combine links and payloads, also the tensor of a link of mass 0; None without mass."""
     parts = []
     for name, pose in places.items():
-        own = link_mass_properties(robot.link[name])
-        if payloads.get(name):
-            point = SpatialInertia(payloads[name], ZERO if own is None else own.com)
-            own = point if own is None else combine([own, point])
-        if own is not None:
-            parts.append(own.transform(pose))
-    return combine(parts) if parts else None
+        own = link_inertia(robot.link[name])
+        payload = payloads.get(name, 0.0)
+        point = SpatialInertia(payload, own.com if own.mass else ZERO)
+        parts.append(combine([own, point] if payload else [own]).transform(pose))
+    whole = combine(parts)
+    return whole if whole.mass else None
 
 
 def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:

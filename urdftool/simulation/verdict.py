@@ -16,6 +16,7 @@ from .checks.settling import check_final_state
 from .checks.support import check_support
 from .fault import Fault
 from .model_checks.description import check_description
+from .model_checks.unread_visuals import report_unread_visuals
 from .run import Run
 
 
@@ -47,6 +48,11 @@ class Verdict:
     def fell(self) -> bool:
         """Tell whether the robot fell, tipped over, slid, or still moves."""
         return any(fault.fell for fault in self.faults)
+
+    @property
+    def gaps(self) -> list[Fault]:
+        """List the remarks that name what no check looked at: links with unread visuals."""
+        return [fault for fault in self.faults if fault.is_gap]
 
 
 def judge(robot: Robot, run: Run, *, strict: bool = False) -> Verdict:
@@ -95,3 +101,4 @@ def _report_faults(robot: Robot, run: Run, rest: FinalState) -> Iterator[Fault]:
     yield from check_joints(robot, run, rest)
     yield from check_controllers(robot, run)
     yield from check_sweep(robot, run)
+    yield from report_unread_visuals(robot)

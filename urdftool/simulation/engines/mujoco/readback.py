@@ -50,7 +50,7 @@ def _list_mass(model: Any, body: RigidBody, number_of: Mapping[str, int]) -> Ite
     parts = []
     for link, pose in body.places.items():
         number = number_of[link]
-        if number and model.body_mass[number]:
+        if number and (model.body_mass[number] or model.body_inertia[number].any()):
             w, x, y, z = (float(part) for part in model.body_iquat[number])
             turn = np.array(rotation_from_quaternion((w, x, y, z)))
             tensor = turn @ np.diag(model.body_inertia[number]) @ turn.T
