@@ -53,7 +53,7 @@ def _list_repeated(robot: Robot) -> Iterator[Remark]:
             if value.earlier and value.place not in known:
                 known.add(value.place)
                 text = f"{kind} '{name}': {value.tag} is set several times; "
-                shown = describe_content(value.content)
+                shown = describe_content(value.written)
                 shown = f"{shown:g}" if isinstance(shown, float) else shown
                 text += f"{shown} counts, as in Gazebo"
                 yield Remark("repeated-setting", value.place, kind, name, text)

@@ -205,6 +205,9 @@ JOINT_TAGS = frozenset(tag for row in OF_JOINTS if row.path for tag in row.tags)
 LUMPING_TAGS = frozenset(tag for row in OF_JOINTS if not row.path for tag in row.tags)
 """Tags of a fixed joint that prevent its lumping; the joint stays fixed, also with the second."""
 
+_OPPOSITES = frozenset(row.opposite for row in OF_LINKS if row.opposite)
+"""Tags that set a flag to its opposite."""
+
 _TRUE = frozenset(("true", "yes", "1"))
 _FALSE = frozenset(("false", "no", "0"))
 
@@ -220,6 +223,11 @@ class Value(Part):
 
     content: Content = 0.0
     earlier: tuple[Value, ...] = ()
+
+    @property
+    def written(self) -> Content:
+        """Return what the element says: the opposite of the content of ``turnGravityOff``."""
+        return not self.content if self.tag in _OPPOSITES else self.content
 
 
 Settings = dict[str, Value]

@@ -136,7 +136,7 @@ def _report_settings(t: Translation, part: Link | Joint, settings: Mapping[str, 
     for value in {id(value.provenance): value for value in settings.values()}.values():
         if value.earlier:
             text = f"<{value.tag}> of '{part.name}' is set several times; "
-            used = f"{format_content(value.content)}, which Gazebo takes, is used"
+            used = f"{format_content(value.written)}, which Gazebo takes, is used"
             t.report_loss("repeated", text + used, value, part)
 
 
