@@ -410,3 +410,34 @@ def test_the_reason_for_which_a_link_is_left_is_that_of_its_fault(urdftool, writ
     done = fill(urdftool, path, code=1)
     assert f"link 'a' is left as it is: {reason}; --all recomputes it" in done.err
     assert "0 links written, 1 left" in done.err
+
+
+XACRO = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include filename="{}"/>'
+LINK = '<link name="{}"><visual><geometry><mesh filename="{}"/></geometry></visual></link>'
+
+
+@pytest.mark.parametrize("out", ["new/deep/out.xacro", "out.xacro"])
+def test_relative_names_lead_to_the_same_files_from_the_output(urdftool, write, out):
+    write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    write("m.xacro", XACRO.partition("<xacro:include")[0] + "</robot>")
+    path = write("r.xacro", XACRO.format("m.xacro") + LINK.format("a", "part.obj") + "</robot>")
+    fill(urdftool, path, "--density", "10", "-o", out)
+    up = "../../" if "/" in out else ""
+    text = Path(out).read_text()
+    assert f'<xacro:include filename="{up}m.xacro"/>' in text
+    assert f'<mesh filename="{up}part.obj"/>' in text
+    with_trust = urdftool("--trust", "info", out)
+    assert with_trust.code == 0, with_trust.err
+
+
+def test_a_relative_name_that_cannot_follow_the_output_is_refused(urdftool, write):
+    write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    write(
+        "m.xacro", XACRO.partition("<xacro:include")[0] + LINK.format("a", "part.obj") + "</robot>"
+    )
+    path = write("r.xacro", XACRO.format("m.xacro") + "</robot>")
+    done = urdftool("inertia", "robot", path, "--write", "--density", "10", "-o", "new/r.xacro")
+    assert done.code == 2
+    assert "m.xacro:1:" in done.err
+    assert "'part.obj' is relative to r.xacro, but is computed or written in an incl" in done.err
+    assert not Path("new").exists()

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import urdftool
+from tests.assets import make_png
 from tests.edit.robots import (
     ARM,
     ARM_SRDF,
@@ -265,6 +266,18 @@ def test_paths_of_meshes_follow_the_output(write, tmp_path):
     robot = urdftool.load(write("in/arm.urdf", text))
     edited = robot.prefix("l_", output=tmp_path / "out" / "arm.urdf")
     assert 'filename="../in/meshes/part.obj"' in edited.data.decode()
+
+
+@pytest.mark.parametrize("folder", ["in", "new/deep"])
+def test_a_result_reads_its_image_before_its_folder_exists(write, tmp_path, folder):
+    material = '<material name="m"><texture filename="skin.png"/></material></visual>'
+    text = ARM.replace('<material name="gray"/></visual>', material, 1)
+    path = write("in/arm.urdf", text)
+    (tmp_path / "in/skin.png").write_bytes(make_png())
+    edited = urdftool.load(path).reverse_sign(["slide"], output=tmp_path / folder / "out.urdf")
+    assert edited.is_proved
+    (proof,) = edited.proofs
+    assert "textures" not in proof.comparison.skipped
 
 
 def test_xacro_is_expanded(write):

@@ -38,6 +38,18 @@ def test_each_is_found_once(write, code):
     assert list(list_remarks(api.load(write("good.urdf", make(""))))) == []
 
 
+@pytest.mark.parametrize(
+    ("values", "counts"), [(("false", "true"), "true"), (("true", "false"), "false")]
+)
+def test_the_value_that_counts_is_that_of_the_element(write, values, counts):
+    """``turnGravityOff`` is the opposite of the setting ``gravity``."""
+    block = '<gazebo reference="base"><turnGravityOff>{}</turnGravityOff></gazebo>'
+    robot = api.load(write("r.urdf", make("".join(map(block.format, values)))))
+    (remark,) = list_remarks(robot)
+    assert f"turnGravityOff is set several times; {counts} counts" in remark.message
+    assert robot.link["base"].settings["gravity"].content is (counts == "false")
+
+
 def test_a_sensor_of_no_link_is_said_once(write):
     assert len(list(list_remarks(api.load(write("r.urdf", make(SENSOR)))))) == 1
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
+    from ..source.location import SourceFile
 
 
 def write_files(robot: Robot, edited: Mapping[str, bytes], output: str | None) -> list[str]:
@@ -18,6 +20,7 @@ def write_files(robot: Robot, edited: Mapping[str, bytes], output: str | None) -
     """
     from ..output import write_file
     from ..source.document import STDIN
+    from ..source.location import SourceFile
 
     assert robot.source is not None
     files = {file.path: file for file in robot.source.files}
@@ -26,11 +29,24 @@ def write_files(robot: Robot, edited: Mapping[str, bytes], output: str | None) -
             _check_unchanged(path, files[path].data)
     if output is not None:
         main = robot.source.files[0]
-        _write_out(edited.get(main.path, main.data), output, list(files))
+        data = edited.get(main.path, main.data)
+        if output != "-":
+            data = _adjust_names(robot, SourceFile(main.path, data), output)
+        _write_out(data, output, list(files))
         return [output]
     for path, data in edited.items():
         write_file(path, data)
     return list(edited)
+
+
+def _adjust_names(robot: Robot, file: SourceFile, output: str) -> bytes:
+    """Return the bytes of a description whose relative file names fit the folder of the output."""
+    from ..source.moved_references import move_references
+
+    assert robot.source is not None
+    here = robot.source.packages.file.parent
+    elements = robot.source.document.root.walk()
+    return move_references(file, elements, here, Path(output).parent)
 
 
 def _check_unchanged(path: str, data: bytes) -> None:
