@@ -50,6 +50,22 @@ def test_missing_changed_and_unlisted_files(urdftool, bundle):
     assert codes(urdftool) == ["missing-file", "changed-file", "unlisted-file"]
 
 
+@pytest.mark.parametrize("size", [7, "many", -1])
+def test_a_size_that_is_not_that_of_the_file(urdftool, bundle, size):
+    manifest = bundle / "bundle.json"
+    data = json.loads(manifest.read_text())
+    data["files"][0]["bytes"] = size
+    manifest.write_text(json.dumps(data))
+    assert codes(urdftool) == ["invalid-manifest"]
+
+
+def test_a_folder_without_manifest_is_not_a_bundle(urdftool, bundle):
+    (bundle / "bundle.json").unlink()
+    done = urdftool("bundle", str(bundle), "--check")
+    assert done.code == 2
+    assert "is not a bundle: it has no bundle.json" in done.err
+
+
 @pytest.mark.parametrize(
     ("written", "code"),
     [

@@ -81,6 +81,17 @@ def test_a_writer_reports_what_its_format_cannot_express(target, write):
     assert set(target.cannot_express) <= codes
 
 
+@pytest.mark.parametrize("target", WRITABLE, ids=by_name)
+@pytest.mark.parametrize("letter", ["n", "\N{LATIN SMALL LETTER E WITH ACUTE}"])
+def test_a_robot_with_a_long_name_has_short_file_names(target, write, letter):
+    """File systems allow names of 255 bytes."""
+    path = write("r.urdf", f'<robot name="{letter * 3000}"><link name="a"/></robot>')
+    options = import_module(f"urdftool.formats.{target.name}.options").Options(force=True)
+    written = target.write(urdftool.load(path), options)
+    assert written.files
+    assert max(len(name.encode()) for name in written.files) < 230
+
+
 def test_the_export_command_offers_what_can_be_written(urdftool):
     shown = urdftool("export", "--help").out
     assert all(f"  {target.name} " in shown for target in WRITABLE)

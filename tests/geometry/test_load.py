@@ -49,6 +49,22 @@ def test_what_is_beyond_all_sizes_is_damaged(tmp_path):
     assert load_mesh(path, (1, 1e-200, 1)).vertices.max() == pytest.approx(1)
 
 
+@pytest.mark.parametrize(
+    ("library", "note"),
+    [
+        ("gone.mtl", ("gone.mtl is not in the folder of the OBJ file, so the mesh has no", False)),
+        ("../out.mtl", ("../out.mtl may not be read; its colors are lost", True)),
+    ],
+)
+def test_colors_are_lost_only_where_they_exist(tmp_path, library, note):
+    (tmp_path / "out.mtl").write_text("newmtl red\nKd 1 0 0\n")
+    path = tmp_path / "package" / "a.obj"
+    path.parent.mkdir()
+    path.write_text(f"mtllib {library}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (found,) = load_mesh(path).notes
+    assert (found.message.startswith(note[0]), found.lossy) == (True, note[1])
+
+
 def test_suffix_in_capitals(tmp_path):
     file = tmp_path / "CUBE.STL"
     file.write_bytes((FIXTURES / "cube.stl").read_bytes())

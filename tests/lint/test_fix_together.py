@@ -7,6 +7,7 @@ import pytest
 
 from tests.conftest import XACRO
 from urdftool.lint import fix_run
+from urdftool.lint.fix_proof import Wrong
 from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
@@ -50,6 +51,22 @@ def test_many_fixes_of_one_file_are_proved_at_once(write, lints):
     assert done.applied == {"empty-dynamics": 40}
     assert done.after[path] == chain(40, "").encode()
     assert lints == [path]
+
+
+def test_a_fix_that_other_fixes_allow_is_tried_again(write, monkeypatch):
+    """The fix of the first joint makes the report worse until all others are made."""
+
+    def find_regression(old, new, tried):
+        early = len(old.findings) > 1 and any("'j0'" in one.message for one in tried)
+        return Wrong("another joint differs") if early else None
+
+    monkeypatch.setattr(fix_run, "find_regression", find_regression)
+    path = write("r.urdf", chain(3))
+    done = fixed([path])
+    assert done.applied == {"empty-dynamics": 3}
+    assert (done.broken, done.reverted) == ({}, [])
+    Path(path).write_bytes(done.after[path])
+    assert fixed([path]).made == []
 
 
 def test_descriptions_that_share_nothing_are_linted_once_each(write, lints):
@@ -116,7 +133,7 @@ def test_one_bad_fix_among_many_is_found_by_halves(write, lints, monkeypatch):
     after = done.after[path].decode()
     assert after.count("<dynamics/>") == 1
     assert 'name="j17"' in next(line for line in after.splitlines() if "<dynamics/>" in line)
-    assert len(lints) <= 1 + 2 * 6
+    assert len(lints) <= 1 + 2 * 6 + 1  # it is tried again after the others
 
 
 def test_a_bad_fix_of_one_description_costs_the_others_nothing(write, lints, monkeypatch):

@@ -146,7 +146,13 @@ def test_the_summary_names_three_rules_and_what_to_do():
         "     3  zero-mass   --fix --unsafe-fixes, or --ignore zero-mass",
         "     2  name-style  --ignore name-style",
         "--fix --diff shows 4 safe fixes",
-        "--fix --unsafe-fixes --diff shows 3 unsafe fixes as well",
+        "--fix --unsafe-fixes --diff shows 3 unsafe fixes or more as well",
+    ]
+    assert list(format_advice([*facts[:7], *facts[:2]]))[-1].endswith("3 unsafe fixes as well")
+    single = [*facts, facts[0], fact("zero-mass", WARNING, 9)]
+    assert list(format_advice(facts, single))[-2:] == [
+        "--fix --diff shows 5 safe fixes",
+        "--fix --unsafe-fixes --diff shows 3 unsafe fixes or more as well",
     ]
     assert list(format_advice(facts[:MANY])) == []
     rewrite = fix._replace(rewrites=(FileRewrite("a.stl", "a.stl", "binary STL"),))

@@ -106,6 +106,7 @@ def _find_defects(folder: Path) -> Iterator[Defect]:
     if document is None or digests is None:
         yield Defect("invalid-manifest", MANIFEST, "is not a manifest that urdftool wrote")
         return
+    sizes = {entry["path"]: entry.get("bytes") for entry in document["files"]}
     present = {}
     for where, folders, names in os.walk(folder):
         for name in (*folders, *names):
@@ -124,6 +125,9 @@ def _find_defects(folder: Path) -> Iterator[Defect]:
             yield Defect("unlisted-file", inner, f"is not listed in {MANIFEST}")
         elif not path.is_file() or compute_digest(path) != digests[inner]:
             yield Defect("changed-file", inner, "was changed since it was bundled")
+        elif sizes[inner] not in (None, path.stat().st_size):
+            text = f"has {path.stat().st_size} bytes, but {MANIFEST} says {sizes[inner]!r}"
+            yield Defect("invalid-manifest", inner, text)
         else:
             known = list_known_missing(document).get(inner, set())
             yield from (

@@ -139,7 +139,7 @@ def command(
     as_json = as_json or "json" in formats
     formats = tuple(name for name in formats if name != "json")
     if output is None:
-        if check and is_bundle(robot[0]):
+        if check and (is_bundle(robot[0]) or os.path.isdir(robot[0])):
             return _finish(console, robot[0], None, check=True, as_json=as_json)
         raise click.UsageError("missing option -o OUT: a folder or a .zip file")
     options = _make_options(output, choices)

@@ -79,7 +79,7 @@ def report(
     check_targets(targets, inputs=_list_inputs(outcome))
     if output.baseline or output.write_baseline:
         outcome = _apply_baseline(console, outcome, settings, output)
-    outcome = group_outcome(outcome)
+    single, outcome = outcome.findings, group_outcome(outcome)
     threshold = Severity[output.fail_on.upper()]
     to_file = output.output_file not in (None, "-")
     at_terminal = not to_file and sys.stdout.isatty()
@@ -116,7 +116,7 @@ def report(
         for line in (*list_skipped_rules(outcome), *list_unread_meshes(outcome)):
             console.print_note(line)
         people = style in ("full", "concise") and not output.statistics
-        for line in format_advice(outcome.findings) if people else ():
+        for line in format_advice(outcome.findings, single) if people else ():
             console.print_note(line)
     if output.ending is not None:
         console.print_note(output.ending(outcome.reports))

@@ -105,8 +105,12 @@ def _read_materials(path: Path, libraries: list[str], notes: list[MeshNote]) -> 
     seen: set[str] = set()
     for library in dict.fromkeys(libraries):
         file = path.parent / library
-        if not os.path.isfile(file) or not is_companion_allowed(path, file):
-            message = f"{library} is not in the folder of the OBJ file; its colors are lost"
+        if not os.path.isfile(file):
+            message = f"{library} is not in the folder of the OBJ file, so the mesh has no colors"
+            notes.append(MeshNote("obj-without-materials", message))
+            continue
+        if not is_companion_allowed(path, file):
+            message = f"{library} may not be read; its colors are lost"
             notes.append(MeshNote("obj-without-materials", message, lossy=True))
             continue
         real = os.path.realpath(file)

@@ -76,6 +76,10 @@ class FixResult:
     unwritten: list[AppliedFix] = field(default_factory=list)
     groups: list[set[str]] = field(default_factory=list)
 
+    def forget_reverted(self) -> None:
+        """Discard what is known of fixes that were not applied, before they are tried again."""
+        self.broken, self.unmade, self.reverted = {}, {}, []
+
     def drop(self, paths: set[str]) -> None:
         """Discard the changes of files that are not written, and the count of their fixes."""
         for path in paths:
@@ -141,12 +145,18 @@ def apply_fixes(
         ConfigError: The configuration is invalid.
     """
     result = FixResult(list(reports))
-    banned, doubted = set[Key](), set[Key]()
-    for number in range(1, MAX_ROUNDS + 1):
-        chosen = _choose(result.reports, banned, unsafe=unsafe, meshes=meshes)
-        if not chosen:
-            break
-        _Round(result, options, banned, doubted, number).prove(chosen)
+    number = 0
+    while number < MAX_ROUNDS:
+        begun, banned, doubted = len(result.made), set[Key](), set[Key]()
+        result.forget_reverted()
+        while number < MAX_ROUNDS:
+            chosen = _choose(result.reports, banned, unsafe=unsafe, meshes=meshes)
+            if not chosen:
+                break
+            number += 1
+            _Round(result, options, banned, doubted, number).prove(chosen)
+        if len(result.made) == begun or not banned:
+            break  # other fixes were made since: a reverted one may be right now
     result.groups = _get_groups(result)
     return result
 

@@ -128,11 +128,19 @@ def _join(blocks: Iterable[Sequence[str]]) -> Iterator[str]:
         yield ""
 
 
-def format_advice(findings: Sequence[Finding]) -> Iterator[str]:
-    """Yield the rules with the most findings and their remedies; nothing for few findings."""
+def format_advice(
+    findings: Sequence[Finding], single: Sequence[Finding] | None = None
+) -> Iterator[str]:
+    """Yield the rules with the most findings and their remedies; nothing for few findings.
+
+    Args:
+        findings: Findings as they are shown: a group is one.
+        single: The same findings before they were grouped, each with its fix; None for no groups.
+    """
     if len(findings) <= MANY:
         return
-    options = Counter(finding.fix.option for finding in findings if finding.fix is not None)
+    every = findings if single is None else single
+    options = Counter(finding.fix.option for finding in every if finding.fix is not None)
     safe, unsafe = options["--fix"], options["--fix --unsafe-fixes"]
     meshes = options.total() - safe - unsafe
     counts = Counter(finding.code for finding in findings).most_common(_RULES)
@@ -152,6 +160,14 @@ def format_advice(findings: Sequence[Finding]) -> Iterator[str]:
         yield f"--fix --diff shows {format_count(safe, 'safe fix', 'safe fixes')}"
     if unsafe:
         what = format_count(unsafe, "unsafe fix", "unsafe fixes")
+        if any(_may_have_unsafe_fix(finding) for finding in every):
+            what += " or more"  # those that require the inertia of meshes are computed there
         yield f"--fix --unsafe-fixes --diff shows {what}{' as well' if safe else ''}"
     if meshes:
         yield f"--fix-meshes adds {format_count(meshes, 'fix', 'fixes')} of mesh files"
+
+
+def _may_have_unsafe_fix(finding: Finding) -> bool:
+    """Tell whether the rule of a finding without a fix has an unsafe one."""
+    known = FIXES.get(finding.code)
+    return finding.fix is None and known is not None and "--unsafe-fixes" in known.option

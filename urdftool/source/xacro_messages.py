@@ -320,7 +320,8 @@ def _explain_syntax(failure: Failure) -> Explanation | None:
     inner = _unwrap(error)
     if isinstance(inner, SyntaxError) and failed_text:
         return Explanation(
-            "expansion-failed", f"${{{failed_text}}} is not a Python expression: {inner.msg}"
+            "expansion-failed",
+            f"${{{_shorten(failed_text)}}} is not a Python expression: {inner.msg}",
         )
     return None
 
@@ -355,11 +356,15 @@ def _format_child_elements(count: int) -> str:
     return "one child element" if count == 1 else f"{count} child elements"
 
 
+def _shorten(text: str) -> str:
+    """Return the part of an expression that a message shows."""
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
+
+
 def _format_expression(failed_text: str | None) -> str:
     if not failed_text:
         return ""
-    if len(failed_text) > _SHOWN:
-        failed_text = f"{failed_text[:_SHOWN]}…"
+    failed_text = _shorten(failed_text)
     return f", in ${{{failed_text}}}" if "$" not in failed_text else f", in {failed_text}"
 
 

@@ -58,6 +58,16 @@ class UniqueNames:
         return name
 
 
+_LONGEST = 200
+"""Largest number of bytes of a file's name without its ending. File systems allow 255 with the
+ending and that of a temporary file; chosen below it, no source."""
+
+
+def shorten_file_name(name: str) -> str:
+    """Return the beginning of a name that file systems accept."""
+    return name.encode("utf-8", "replace")[:_LONGEST].decode("utf-8", "ignore")
+
+
 def replace_file_name(text: str) -> str:
     """Replace characters other than letters, digits, dots, dashes and underscores in a name."""
     return re.sub(r"[^\w.-]+", "_", text).strip("._-") or "unnamed"

@@ -15,7 +15,7 @@ from ...model.elements import Robot
 from ...source.document import parse, read_file
 from ...source.packages import find_own_package, shorten_path
 from ..common.directory import mark
-from ..common.naming import replace_file_name
+from ..common.naming import replace_file_name, shorten_file_name
 from ..common.unexpressed import report_unexpressed, report_unknown_colors
 from ..defects import FATAL, make_defect, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
@@ -59,7 +59,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     options = options or Options()
     robot, world = report_taken_world(robot)
     model = get_model_name(robot)
-    written = Written(options.file or f"{model}.xml")
+    written = Written(options.file or f"{shorten_file_name(model)}.xml")
     _report_unexpressed(robot, written)
     report_unknown_colors(robot, written)
     written.losses += world if options.force else []

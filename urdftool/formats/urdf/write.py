@@ -19,7 +19,7 @@ from ..common.force_fallbacks import (
     report_tree_defects,
 )
 from ..common.missing_bounds import explain_missing_bounds
-from ..common.naming import replace_file_name
+from ..common.naming import replace_file_name, shorten_file_name
 from ..common.numbers import number_text
 from ..defects import refuse
 from ..written import Written
@@ -50,7 +50,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     """
     options = options or Options()
     stem = replace_file_name(robot.name or "robot")
-    written = Written(options.file or f"{stem}.urdf")
+    written = Written(options.file or f"{shorten_file_name(stem)}.urdf")
     robot = source = take_tree(robot, options.root, written)
     left = drop_invalid_parts(robot)
     converted = {joint.name for joint in robot.joints if joint.type in (*BALL_TYPES, "screw")}

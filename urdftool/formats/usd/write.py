@@ -7,7 +7,7 @@ from pathlib import Path
 from ...diagnostic import Severity
 from ...lint.validate import validate
 from ...model.elements import Robot
-from ..common.naming import replace_file_name
+from ..common.naming import replace_file_name, shorten_file_name
 from ..common.srdf import read_srdf
 from ..defects import FATAL, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
@@ -136,7 +136,7 @@ def _finish(builder: StageBuilder, robot: Robot, options: Options, written: Writ
 
 def get_stage_name(robot: Robot) -> str:
     """Return the name of the stage in a folder."""
-    return f"{replace_file_name(_choose_name(robot))}.usda"
+    return f"{shorten_file_name(replace_file_name(_choose_name(robot)))}.usda"
 
 
 def _choose_name(robot: Robot) -> str:
