@@ -44,9 +44,9 @@ def _adjust_names(robot: Robot, file: SourceFile, output: str) -> bytes:
     from ..source.moved_references import move_references
 
     assert robot.source is not None
-    here = robot.source.packages.file.parent
+    here = Path(os.path.realpath(robot.source.packages.file.parent))
     elements = robot.source.document.root.walk()
-    return move_references(file, elements, here, Path(output).parent)
+    return move_references(file, elements, here, Path(os.path.realpath(Path(output).parent)))
 
 
 def _check_unchanged(path: str, data: bytes) -> None:

@@ -28,14 +28,14 @@ def move_references(
     Args:
         file: The description as it is to be written, URDF or xacro.
         elements: Elements of the robot, expanded.
-        here: Folder to which the names are relative.
-        folder: Folder to which they are to be relative.
+        here: Folder to which the names are relative, without links.
+        folder: Folder to which they are to be relative, without links.
 
     Raises:
         SourceError: A relative name is computed, or written in an included file, so that it cannot
             be adjusted; or the encoding is not supported for edits.
     """
-    if os.path.realpath(here) == os.path.realpath(folder):
+    if here == folder:
         return file.data
     source = edit.parse_source(file)
     named = dict(_list_relative(source.document.root.walk()))
@@ -50,8 +50,7 @@ def move_references(
     edits = []
     for element in source.document.root.walk():
         for name, _ in _list_relative([element]):
-            path = os.path.join(os.path.realpath(here), name)
-            moved = Path(os.path.relpath(path, os.path.realpath(folder))).as_posix()
+            moved = Path(os.path.relpath(here / name, folder)).as_posix()
             edits.append(edit.set_attribute(source, element, "filename", moved))
     return edit.apply(file, edits)
 

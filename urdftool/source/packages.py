@@ -491,8 +491,8 @@ class Packages:
             return self.find_installed(rest)
         base = self.file if relative_to is None else Path(os.path.abspath(relative_to))
         if ".." in uri and not self.files.is_folder(base.parent):  # it is not written yet
-            folder = self.files.resolve_links(str(base.parent))
-            return Path(os.path.normpath(os.path.join(folder, uri)))
+            real = self.files.resolve_links(str(base.parent))
+            return Path(os.path.normpath(os.path.join(real, uri)))
         return self.find_installed(base.parent / uri)
 
 
