@@ -205,9 +205,7 @@ JOINT_TAGS = frozenset(tag for row in OF_JOINTS if row.path for tag in row.tags)
 LUMPING_TAGS = frozenset(tag for row in OF_JOINTS if not row.path for tag in row.tags)
 """Tags of a fixed joint that prevent its lumping; the joint stays fixed, also with the second."""
 
-_OPPOSITES = frozenset(row.opposite for row in OF_LINKS if row.opposite)
-"""Tags that set a flag to its opposite."""
-
+_OPPOSITES = {row.opposite for row in OF_LINKS} - {""}
 _TRUE = frozenset(("true", "yes", "1"))
 _FALSE = frozenset(("false", "no", "0"))
 
@@ -227,7 +225,7 @@ class Value(Part):
     @property
     def written(self) -> Content:
         """Return what the element says: the opposite of the content of ``turnGravityOff``."""
-        return not self.content if self.tag in _OPPOSITES else self.content
+        return self.content if self.tag not in _OPPOSITES else not self.content
 
 
 Settings = dict[str, Value]
@@ -423,8 +421,7 @@ _ENABLED = ("override", "energy", "fwdinv", "invdiscrete", "sleep")
 def read_options(extensions: Iterable[Element]) -> Settings:
     """Return the settings of the world in the ``<option>`` elements of ``<mujoco>`` elements."""
     reading, flags = _Reading("world"), dict[str, tuple[Element, str]]()
-    options = [one for extension in extensions for one in extension.list_children("option")]
-    for option in options:
+    for option in (one for each in extensions for one in each.list_children("option")):
         for row in OF_WORLD:
             text = option.get(row.mjcf.partition(" ")[2])
             content = None if text is None else parse(row.kind, text.strip())
@@ -443,12 +440,10 @@ def read_options(extensions: Iterable[Element]) -> Settings:
 def add_settings(robot: Robot) -> None:
     """Read the settings of a URDF: from ``<gazebo>`` blocks and Bullet's ``<contact>``."""
     robot.world = read_options(() if robot.xml is None else robot.xml.list_children("mujoco"))
-    blocks = robot.block_elements
-    own = _Reading(robot.name, "robot")
+    blocks, own = robot.block_elements, _Reading(robot.name, "robot")
     robot.settings = _read_elements(robot, own, blocks.get("", []), OF_ROBOT)
     for link in robot.links:
-        contact = link.find_child_xml("contact")
-        elements = blocks.get(link.name, [])
+        contact, elements = link.find_child_xml("contact"), blocks.get(link.name, [])
         if not elements and contact is None:
             continue
         link.settings = _read_elements(robot, _Reading(link.name), elements, OF_LINKS)
@@ -462,8 +457,7 @@ def add_settings(robot: Robot) -> None:
         named = [get_text(e) for e in elements if e.tag == "material" and not e.children]
         link.gazebo_material = named[-1] if named else ""
     for joint in robot.joints:
-        elements = blocks.get(joint.name, [])
-        if elements:
+        if elements := blocks.get(joint.name, []):
             reading = _Reading(joint.name, "joint")
             joint.settings = _read_elements(robot, reading, elements, OF_JOINTS)
 

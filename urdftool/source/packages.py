@@ -441,8 +441,7 @@ class Packages:
                 continue
             if name not in self._rules:
                 self._rules[name] = read_install_rules(folder, name, self.files)
-            source = find_installed(self._rules[name], relative.as_posix(), self.files)
-            if source is not None:
+            if source := find_installed(self._rules[name], relative.as_posix(), self.files):
                 return source
         return path
 
@@ -489,11 +488,10 @@ class Packages:
             return self.find_installed(folder / inner.lstrip("/"))
         if separator and scheme == "file":
             return self.find_installed(rest)
-        base = self.file if relative_to is None else Path(os.path.abspath(relative_to))
-        if ".." in uri and not self.files.is_folder(base.parent):  # it is not written yet
-            real = self.files.resolve_links(str(base.parent))
-            return Path(os.path.normpath(os.path.join(real, uri)))
-        return self.find_installed(base.parent / uri)
+        above = (Path(os.path.abspath(relative_to)) if relative_to else self.file).parent
+        if ".." in uri and not self.files.is_folder(above):
+            return Path(os.path.normpath(self.files.resolve_links(above) + f"/{uri}"))
+        return self.find_installed(above / uri)
 
 
 def suggest_folder(name: str, folder: Path) -> str:
