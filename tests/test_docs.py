@@ -107,7 +107,7 @@ def test_words_count_where_numbers_vary():
 
 
 def test_progress_is_not_output():
-    lines = r"3 of 5 meshes, 2 s: a.stl, b.stl\n3 of 3 links, 2 s\nthe result\n"
+    lines = r"3 of 5 meshes, 2 s: a.stl, b.stl\n3 of 3 links, 2 s\nthe result (checked in 8 s)\n"
     shown = insert_output(f"```console\n$ printf '{lines}'\n```\n")
     assert shown.splitlines()[2:] == ["the result", "```"]
 

@@ -27,6 +27,9 @@ BLOCK = re.compile(r"(?<=```console\n).*?(?=```)", re.DOTALL)
 FILE = re.compile(r"<!-- file: (\S+) -->\n\n```\w+\n(.*?)```", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\([^)]*pictures/([^)/]+)\)")
 RUN = re.compile(r"<!-- run: (.*?) -->")
+TIME = re.compile(r" \(checked in \d+ s\)$", re.MULTILINE)
+"""The time that a command adds where it took long."""
+
 PROGRESS = re.compile(r"^(?:\d+ of \d+ [\w ]+, )?\d+ s(?:: .*)?\n", re.MULTILINE)
 UNSEEN = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "FORCE_COLOR", "URDFTOOL_TRUST")
 
@@ -124,4 +127,5 @@ def _run_command(command: str, folder: str) -> str:
         text=True,
         check=False,
     )
-    return re.sub(r"[ \t]+$", "", PROGRESS.sub("", done.stdout), flags=re.MULTILINE)
+    shown = TIME.sub("", PROGRESS.sub("", done.stdout))
+    return re.sub(r"[ \t]+$", "", shown, flags=re.MULTILINE)
