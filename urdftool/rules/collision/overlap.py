@@ -91,7 +91,7 @@ def self_collision_at_zero(
         if inside:
             yield _report_overlap(robot, inside, readers, what, WARNING)
         rest = [pair for pair in pairs if pair not in inside]
-        # of MoveIt the hulls say nothing; without a reader that is known, nobody would act
+        # of MoveIt the hulls say nothing; without a known reader, no reader acts
         if rest and readers and not targets.isdisjoint(("moveit", "mujoco")):
             yield _report_overlap(robot, rest, readers, what, None if "moveit" in readers else INFO)
 
