@@ -71,8 +71,8 @@ that were wrong there were changed afterwards, so these counts are of the rules 
 seeds 61001 and 61002 were drawn of the packages of all these samples, and judged by a third reader,
 who had changed no rule and saw no other verdict. Seeds 71001 and 71002 ("unseen") were drawn of 91
 robots of nine packages, eight of which no earlier sample has, after many kinds of noise had been
-changed, and judged by a fourth reader, who ran the readers for each file that they load. Five of the
-seven wrong findings are of kinds that were changed afterwards.
+changed, and judged by a fourth reader, who ran the readers for each file that they load. Five of
+the seven wrong findings are of kinds that were changed afterwards.
 """
 RULES = """\
 ## Rules with findings that were wrong

@@ -25,6 +25,10 @@ needs_fcl = pytest.mark.skipif(
 )
 
 
+READERS = ("moveit", "mujoco")
+"""Targets that compare links which no joint connects."""
+
+
 def find(folder, rule, *parts, **options):
     path = folder / "r.urdf"
     path.write_text(f'<robot name="r">{"".join(parts)}</robot>', "utf-8")
@@ -50,14 +54,17 @@ def make_stages(axis="1 0 0", kind="prismatic"):
     ],
 )
 def test_stages_of_a_telescope_are_in_each_other(tmp_path, axis, kind, count):
-    assert len(find(tmp_path, "self-collision-at-zero", *make_stages(axis, kind))) == count
+    assert (
+        len(find(tmp_path, "self-collision-at-zero", *make_stages(axis, kind), targets=READERS))
+        == count
+    )
 
 
 def test_two_fingers_of_a_palm_are_no_stages(tmp_path):
     parts = [LINK.format(name, BOX.format(x, 1, 1, 1)) for name, x in (("palm", 9), *STUCK)]
     for name, axis in (("left", "0 1 0"), ("right", "0 -1 0")):
         parts.append(JOINT.format(f"{name}_slide", "prismatic", "palm", name, axis, RANGE))
-    assert len(find(tmp_path, "self-collision-at-zero", *parts)) == 1
+    assert len(find(tmp_path, "self-collision-at-zero", *parts, targets=READERS)) == 1
 
 
 STUCK = (("left", 0), ("right", 0.5))
@@ -67,7 +74,10 @@ STUCK = (("left", 0), ("right", 0.5))
 @pytest.mark.parametrize(("pair", "count"), [(("a", "c"), 0), (("a", "b"), 1)])
 def test_pairs_of_the_srdf_are_known_to_overlap(tmp_path, pair, count):
     (tmp_path / "r.srdf").write_text(SRDF.format(*pair, "Never"), "utf-8")
-    assert len(find(tmp_path, "self-collision-at-zero", *make_stages("0 1 0"))) == count
+    assert (
+        len(find(tmp_path, "self-collision-at-zero", *make_stages("0 1 0"), targets=READERS))
+        == count
+    )
 
 
 @pytest.mark.parametrize(("fingers", "size", "count"), [(3, 0.1, 0), (2, 0.1, 1), (3, 0.7, 1)])
@@ -82,7 +92,7 @@ def test_an_envelope_encloses_several_smaller_links(tmp_path, fingers, size, cou
         parts += [LINK.format(f"finger_{n}", BOX.format(n / 5 - 0.2, size, 0.01, 0.01))]
         parts += [JOINT.format(f"a{n}", "revolute", "palm", f"root_{n}", "0 0 1", RANGE)]
         parts += [JOINT.format(f"b{n}", "revolute", f"root_{n}", f"finger_{n}", "0 0 1", RANGE)]
-    found = find(tmp_path, "self-collision-at-zero", *parts)
+    found = find(tmp_path, "self-collision-at-zero", *parts, targets=READERS)
     assert any("'box'" in one.message for one in found) == count
 
 
@@ -103,7 +113,7 @@ def test_simulators_start_a_joint_at_zero(tmp_path, lower, mujoco, where):
         JOINT.format("one", "revolute", "a", "b", "0 0 1", RANGE),
         JOINT.format("two", "prismatic", "b", "c", "-1 0 0", LIMIT.format(lower, 1)),
     ]
-    (one,) = find(tmp_path, "self-collision-at-zero", *parts, targets=["moveit", "mujoco"])
+    (one,) = find(tmp_path, "self-collision-at-zero", *parts, targets=READERS)
     assert ("mujoco" in one.effects) is mujoco
     assert where in one.message
 
