@@ -127,17 +127,40 @@ STL = (
 
 
 @pytest.mark.parametrize(
-    ("uri", "files", "effects"),
+    ("uri", "files", "effects", "right"),
     [
-        ("package:///a.stl", {"a.stl": STL}, []),
-        ("package:///b.stl", {"a.stl": STL}, ["pybullet, drake", "mujoco"]),
+        ("package:///a.stl", {"a.stl": STL}, [], "a.stl'"),
+        ("package://a.stl", {"a.stl": STL}, [], "a.stl'"),
+        ("package:///b.stl", {"a.stl": STL}, ["pybullet, drake", "mujoco"], "/meshes/FILE"),
     ],
 )
-def test_a_uri_without_a_package_that_readers_open(tmp_path, uri, files, effects):
+def test_a_uri_without_a_package_that_readers_open(tmp_path, uri, files, effects, right):
     shape = f'<collision><geometry><mesh filename="{uri}"/></geometry></collision>'
     (found,) = find(tmp_path, "malformed-uri", LINK.format("a", shape), files=files)
     assert found.severity.label == "error"
     assert list(found.effects) == effects
+    assert found.message.endswith(right)
+
+
+@pytest.mark.parametrize(
+    ("part", "count"),
+    [
+        ('<link name="a" drake_ignore="true"/>', 0),
+        (
+            '<link name="a"/><link name="b"/><joint name="j" type="fixed" drake_ignore="true">'
+            '<parent link="a"/><child link="b"/></joint>',
+            0,
+        ),
+        (
+            '<link name="a"><visual drake_ignore="true"><geometry><sphere radius="1"/></geometry>'
+            "</visual></link>",
+            1,
+        ),
+    ],
+)
+def test_what_drake_reads_is_known(tmp_path, part, count):
+    """Drake 1.51.1 leaves out links and joints, but no shapes."""
+    assert len(find(tmp_path, "unknown-attribute", part)) == count
 
 
 def test_the_path_of_a_mesh_that_is_read_from_a_folder_of_the_name(tmp_path):

@@ -191,13 +191,16 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
         wrong = find_malformation(use)
         if wrong:
             element = use.mesh.element
-            passes = (use.exists or _is_beside(use, description)) and "\\" not in use.uri
+            beside = _is_beside(use, description)
+            passes = (use.exists or beside) and "\\" not in use.uri
             passes = passes or (wrong.defect == "blank" and use.path is None)
             slashes, named = wrong.defect == "double slash", wrong.defect != "no file"
             opened = keeps or use.collides
+            path = use.uri.partition("://")[2].strip("/")
+            right = f"mesh '{use.uri}' names no file of a package; write '{path}'"
             yield Problem(
                 use.link,
-                wrong.text,
+                right if beside and not named else wrong.text,
                 at=element.locate_attribute("filename"),
                 severity=INFO if slashes else WARNING if passes and named else ERROR,
                 data={"uri": use.uri, "defect": wrong.defect},
