@@ -246,3 +246,12 @@ def test_what_only_verify_found_is_a_difference(urdftool, write):
         ]
         result = urdftool("diff", *paths)
         assert (result.code, result.out) == (1, out)
+
+
+def test_an_attribute_that_is_equal_to_the_name_is_compared(urdftool, write):
+    text = "<robot name='r'><link name='a'/><gazebo reference='a'><sensor name='camera' type='{}'/>"
+    paths = [
+        write(f"{kind}.urdf", text.format(kind) + "</gazebo></robot>")
+        for kind in ("camera", "depth")
+    ]
+    assert urdftool("diff", *paths).out == ("gazebo 'a'\n  sensor[camera]/@type: camera → depth\n")

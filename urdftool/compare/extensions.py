@@ -205,7 +205,8 @@ def _flatten_content(element: Content, renamed: Mapping[str, str]) -> Flat:
 
 
 def _flatten(element: Content, above: str, found: Flat, renamed: Mapping[str, str]) -> None:
-    named = next((element.get(name) for name in _NAMING if element.get(name)), None)
+    naming = next((name for name in _NAMING if element.get(name)), "")
+    named = element.get(naming)
     step = element.tag + (f"[{renamed.get(named, named)}]" if named else "")
     path, count = above + step, 1
     while path in found:
@@ -213,7 +214,7 @@ def _flatten(element: Content, above: str, found: Flat, renamed: Mapping[str, st
         path = f"{above}{step}({count})"
     found[path] = " ".join(element.text.split()), element
     for name, value in element.attributes.items():
-        if value != named and not name.startswith("xmlns"):
+        if name != naming and not name.startswith("xmlns"):
             found[f"{path}/@{name}"] = " ".join(value.split()), element
     for child in element.children:
         _flatten(child, f"{path}/", found, renamed)
