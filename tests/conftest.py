@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, settings
 
 from urdftool import cli, extras
 from urdftool.commands import progress
+from urdftool.projects import TRUST
 
 ROOT = Path(__file__).resolve().parents[1]
 FIXTURES = ROOT / "fixtures"
@@ -157,11 +158,13 @@ class Result:
 
 @pytest.fixture
 def urdftool(capfdbinary):
-    """Call the command line; gives a :class:`Result`."""
+    """Call the command line; gives a :class:`Result`. ``--trust`` holds for that call alone."""
 
     def call(*arguments):
         capfdbinary.readouterr()
-        code = cli.call([str(argument) for argument in arguments])
+        with pytest.MonkeyPatch.context() as environment:
+            environment.setenv(TRUST, os.environ.get(TRUST, ""))
+            code = cli.call([str(argument) for argument in arguments])
         captured = capfdbinary.readouterr()
         absent = ABSENT.search(captured.err.decode())
         if absent and not is_there(absent[1]):
