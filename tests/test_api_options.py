@@ -71,7 +71,11 @@ OF_COMMANDS = {
     *("debug", "quiet", "trust", "verbose"),  # which the command line adds to each command
 }
 PYTHON = {
-    "simulate": {"robot", "settings", *("gravity", "nudge", "tilt", "start_rpy", "upright_rpy")},
+    "simulate": {
+        "robot",
+        "settings",
+        *("gravity", "nudge", "tilt", "start_rpy", "upright_rpy", "fixed_in_exports"),
+    },
     "verify": {"robots", "packages", "package_paths"},
     "simplify_collisions": {"robot", "settings", "jobs", "output"},
 }

@@ -172,7 +172,8 @@ def test_an_arm_that_tips_over_is_said_to_be_bolted_down_usually(urdftool, write
     path = write("r.urdf", f'<robot name="r">{links}{joints}</robot>')
     result = urdftool("simulate", path)
     assert result.code == 1
-    assert "this looks like a fixed-base manipulator" in result.out
+    assert "the exports fix the root (the description has no sign of a mobile base)" in result.out
+    assert "root free (exports fix it; --fixed-base)" in result.out
     assert urdftool("simulate", path, "--fixed-base").code == 0
 
 

@@ -33,6 +33,7 @@ def choose_start(robot: Robot, settings: Settings) -> tuple[Settings, list[Findi
     from ..formats.common.upright import turn_upright
     from ..formats.mjcf.structure import create_structure
     from ..formats.written import Written
+    from ..simulation.rigid_bodies import has_fixed_base
 
     leading = {n for n, joint in find_movable_joints(robot).items() if joint.mimic is None}
     is_tree = len(robot.tree.roots) == 1 and not robot.tree.detached
@@ -41,10 +42,10 @@ def choose_start(robot: Robot, settings: Settings) -> tuple[Settings, list[Findi
     written = Written("")
     tree, boxes = create_structure(robot), ShapeBoxes(robot)
     home = choose_home_positions(robot, settings.pose, "", None, written)
-    is_free = (
-        not settings.fixed_base
-        and decide_base(tree, "auto", None, boxes, home.values, Written(""))[0]
-    )
+    is_free, reason = decide_base(tree, "auto", None, boxes, home.values, Written(""))
+    if not is_free and not settings.fixed_base and not has_fixed_base(robot, tree.root):
+        settings = replace(settings, fixed_in_exports=reason)
+    is_free = is_free and not settings.fixed_base
     positions = home.values
     if is_free:
         tree = replace(tree, robot=turn_upright(tree, boxes, positions, written))

@@ -80,6 +80,8 @@ def _list_rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
     unactuated = len(recording.joints) - held
     yield "engine", f"{recording.engine}, {recording.steps} steps of {run.settings.timestep:g} s"
     root = "fixed to the world" if bodies.fixed_base else "free"
+    if run.settings.fixed_in_exports:
+        root += " (exports fix it; --fixed-base)"
     joints = "no joints"
     if recording.joints:
         joints = f"{format_count(held, 'joint')} held, {unactuated} unactuated or mimic"

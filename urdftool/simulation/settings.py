@@ -60,6 +60,7 @@ class Settings:
         tilt: Maximum tilt of a trial [rad].
         start_rpy: Roll, pitch and yaw of the upright robot at the start [rad]; set for each trial.
         upright_rpy: Roll, pitch and yaw of the root of the upright robot [rad].
+        fixed_in_exports: Why the exports fix the root that is simulated free; only reported.
         sweep: Whether each joint is also moved through its limits.
         nudge: Angle by which gravity tilts to one side and then to the other at the start [rad],
             so that a robot balanced on a point falls.
@@ -84,6 +85,7 @@ class Settings:
     tilt: float = 0.1
     start_rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
     upright_rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    fixed_in_exports: str = ""
     sweep: bool = False
     nudge: float = 0.02
     time_limit: float = 60.0

@@ -35,6 +35,8 @@ def check_tipping(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]:
 
 
 def _explain_why_tilted(run: Run, state: FinalState) -> str:
+    if reason := run.settings.fixed_in_exports:
+        return f"the exports fix the root ({reason}); try --fixed-base"
     if _looks_like_manipulator(run):
         return "this looks like a fixed-base manipulator; try --fixed-base"
     names = find_initial_support_links(run)
