@@ -131,6 +131,7 @@ def slotted():
     )
 
 
+@pytest.mark.slow
 def test_a_piece_that_buries_a_slot_is_cut_again(monkeypatch):
     surface, whole, parts = slotted()
     monkeypatch.setattr(cut, "divide", lambda *_, **__: parts)
@@ -167,6 +168,7 @@ def test_a_simplified_mesh_says_what_its_hull_is_off():
     assert choice.notes[0].code == "hull-of-engines"
 
 
+@pytest.mark.slow
 def test_a_shell_of_a_few_flat_sides_becomes_plates():
     choice = choose(read_surface(FIXTURES / "meshes/open_box.stl"), Settings(max_error=0.01))
     assert (choice.method, len(choice.pieces)) == ("hull", 5)

@@ -116,6 +116,7 @@ def test_a_hull_with_facets_that_qhull_finds_too_wide():
     assert min(len(vertices), len(faces)) >= 4
 
 
+@pytest.mark.slow
 def test_the_fewest_pieces_within_the_error_are_taken():
     surface = stairs(6)
     counts = [

@@ -89,6 +89,7 @@ def test_two_pieces_of_a_bracket_leave_nothing_out():
     assert found.outside < 0.001
 
 
+@pytest.mark.slow
 def test_pieces_that_coincide_are_measured():
     box = make_primitive("box", (0.2, 0.1, 0.1), np.eye(3), (0, 0, 0))
     target = ReferenceSurface(prepare(box.vertices, box.faces))

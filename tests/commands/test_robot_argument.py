@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from tests.cases import list_cases
 from tests.simulation.robots import inertial
 
 XACRO = (
@@ -40,7 +41,7 @@ def test_an_argument_that_nothing_declares_is_said_once(urdftool, write, tmp_pat
 
 
 @pytest.mark.parametrize("words", [("simulate",), ("view", "--picture", "OUT.png")], ids=" ".join)
-@pytest.mark.parametrize("text", [XACRO, XACRO.replace("$(arg side)", "0.1")])
+@pytest.mark.parametrize("text", list_cases([XACRO, XACRO.replace("$(arg side)", "0.1")], 2))
 def test_a_robot_on_standard_input_is_as_one_in_a_file(
     urdftool, write, tmp_path, monkeypatch, words, text
 ):

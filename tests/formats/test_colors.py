@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import urdftool
+from tests.cases import list_cases
 from urdftool.model.materials import find_shown_material
 
 RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
@@ -43,7 +44,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(("robot", "color"), CASES)
+@pytest.mark.parametrize(("robot", "color"), list_cases(CASES, 2))
 def test_one_color_in_the_model_and_the_exports(
     tmp_path: Path, robot: dict[str, str], color: tuple[float, ...] | None
 ) -> None:

@@ -11,6 +11,7 @@ from contextlib import nullcontext
 
 import pytest
 
+from tests.cases import list_cases
 from tests.conftest import ROOT
 from tests.formats import native_bombs as bombs
 from urdftool.errors import ModelError, SourceError
@@ -91,7 +92,7 @@ def test_prims_of_layers_are_counted(tmp_path):
         read(bombs.write_layers(tmp_path))
 
 
-@pytest.mark.parametrize("name", bombs.LARGE_MJCF)
+@pytest.mark.parametrize("name", list_cases(bombs.LARGE_MJCF, 3))
 def test_the_memory_of_mujoco_is_limited(tmp_path, name):
     path = write(tmp_path, name, ".xml", bombs.LARGE_MJCF[name])
     code, _, err = run("info", path)
@@ -100,6 +101,7 @@ def test_the_memory_of_mujoco_is_limited(tmp_path, name):
     assert str(path) in err
 
 
+@pytest.mark.slow
 def test_the_memory_of_openusd_is_limited(tmp_path):
     code, _, err = run("info", bombs.write_arrays(tmp_path))
     assert code == 2
@@ -212,7 +214,7 @@ def test_mujoco_opens_no_file(tmp_path, monkeypatch):
     assert not read_compile.compile_text(*arguments)[0].error
 
 
-@pytest.mark.parametrize("kind", ["missing", "folder", "device", "pipe"])
+@pytest.mark.parametrize("kind", list_cases(["missing", "folder", "pipe", "device"], 2))
 def test_a_file_that_cannot_be_read_is_an_error_at_its_element(tmp_path, kind):
     if kind == "folder":
         (tmp_path / "m.obj").mkdir()

@@ -132,7 +132,7 @@ common = {
 
 
 @given(robots())
-@settings(max_examples=50, **common)
+@settings(max_examples=25, **common)
 def test_some_random_fixes(tmp_path, monkeypatch, case):
     monkeypatch.chdir(tmp_path)
     check(tmp_path / "r.urdf", case)

@@ -86,6 +86,7 @@ def test_pictures_are_given_back_as_they_were():
         assert times == [50, 100, 500]
 
 
+@pytest.mark.slow
 def test_the_command_writes_all_three(urdftool, tmp_path):
     files = [tmp_path / name for name in ("a.png", "b.png", "c.gif")]
     result = urdftool(

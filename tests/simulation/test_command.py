@@ -58,7 +58,10 @@ def test_json_is_as_its_schema_says(urdftool, write):
 
 
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
-@pytest.mark.parametrize("more", [(), ("--fleet",)], ids=["one", "fleet"])
+@pytest.mark.parametrize(
+    "more",
+    [pytest.param((), id="one"), pytest.param(("--fleet",), id="fleet", marks=pytest.mark.slow)],
+)
 def test_the_same_seed_gives_the_same_bytes(urdftool, write, engine, more):
     if not find_spec(engine):
         pytest.skip(f"requires {engine}")
@@ -132,6 +135,7 @@ def test_a_zero_mass_is_a_verdict(urdftool, write):
     assert "mass of link 'a' is 0" in result.out
 
 
+@pytest.mark.slow
 def test_the_time_limit_holds(urdftool, write):
     result = urdftool(
         "simulate", write("r.urdf", BOX), "--timestep", "0.00001", "--duration", "3600",

@@ -78,6 +78,7 @@ def test_names_are_drawn_as_they_are_written(name, recwarn):
     assert (named != plain).any()
 
 
+@pytest.mark.slow
 def test_a_run_is_plotted_the_same_each_time():
     robot = load(FIXTURES / "robots" / "mira_description" / "urdf" / "mira.urdf")
     (run,) = simulate(robot, Settings(duration=0.3), engine="mujoco")
@@ -97,6 +98,7 @@ def test_the_settings_of_the_user_do_not_matter(monkeypatch):
         assert matplotlib.rcParams["lines.linewidth"] == 9
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not find_spec("pybullet"), reason="requires both engines")
 def test_nothing_else_is_printed_when_python_ends(tmp_path):
     """Hulls that a cycle of Matplotlib kept alive would be listed by manifold3d's binding."""

@@ -159,6 +159,7 @@ def test_yaml_and_other_encodings_are_imported_before_the_walls(tmp_path, base):
         assert 'name="a1"' in text
 
 
+@pytest.mark.slow
 def test_files_that_were_not_used_for_a_while_are_dropped(folder, base, monkeypatch):
     monkeypatch.setattr(expansion_server, "MAX_KEPT", 400)
     expand_with(base, folder, {})

@@ -79,11 +79,12 @@ _REPLACED = frozenset((ast.Attribute, ast.Subscript, ast.Slice, ast.GeneratorExp
 class Expression:
     """Compiled expression."""
 
-    __slots__ = ("_code",)
+    __slots__ = ("_code", "_name")
 
-    def __init__(self, code: CodeType) -> None:
-        """Store code that returns a function of the helpers."""
+    def __init__(self, code: CodeType, name: str | None = None) -> None:
+        """Store code that returns a function of the helpers, and the name if it is only a name."""
         self._code = code
+        self._name = name
 
     def evaluate(self, names: dict[str, Any]) -> Any:
         """Return the value of the expression.
@@ -91,6 +92,11 @@ class Expression:
         Args:
             names: Values by name. Python's built-in names are not available in addition to them.
         """
+        if self._name is not None:  # as the code, in a third of the time
+            try:
+                return names[self._name]
+            except KeyError:
+                raise NameError(f"name '{self._name}' is not defined", name=self._name) from None
         dict.__setitem__(names, "__builtins__", {})
         return eval(self._code, names)(*_HELPERS.values())
 
@@ -124,7 +130,7 @@ def compile_expression(source: str, *, trusted: bool = False) -> Expression:
     code = compile(function, "<expression>", "eval")
     if not trusted:
         _check_code(code, {node.id for node in nodes if type(node) is ast.Name})
-    return Expression(code)
+    return Expression(code, body.id if type(body) is ast.Name else None)
 
 
 def list_names(source: str) -> set[str]:

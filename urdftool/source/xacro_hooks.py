@@ -2,8 +2,7 @@
 
 The ``xacro`` package expands. Replaced are its parser (for locations, limits and checks), package
 search (without ROS), text evaluation (equal, but each expression is compiled once), file access and
-output. Only this module loads xacro, as a separate copy whose state is in module globals: a process
-runs one expansion.
+output. The state of xacro is in module globals: a process runs one expansion.
 """
 
 from __future__ import annotations
@@ -14,9 +13,6 @@ import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
-from importlib import import_module
-from importlib.util import find_spec, module_from_spec, spec_from_file_location
-from types import ModuleType
 from typing import Any
 
 from ..errors import SourceError, UrdftoolError, XacroError
@@ -25,6 +21,7 @@ from .expressions import Expression, compile_expression
 from .limits import EvaluationLimits, make_time_error
 from .location import Call, Place
 from .safe_builtins import MAX_LENGTH, check_size
+from .xacro_copy import substitution_args, xacro
 from .xacro_errors import explain
 from .xacro_files import Files
 from .xacro_lookups import LookupRecorder
@@ -38,45 +35,6 @@ MAX_ELEMENTS = 200_000  # elements of an expansion; chosen, no source
 MAX_INCLUDES = 100  # nested includes; chosen, no source
 _RECURSION_LIMIT = 6000  # frames of Python; chosen, no source: 15 for each of MAX_CALLS
 _SHOWN = 100  # characters of a text in a message
-
-
-_COPY = "urdftool_xacro"
-
-
-def _load_xacro() -> Any:
-    """Load a second copy of xacro under a separate name.
-
-    Its functions and module state change during an expansion; other users of xacro in this
-    process are not affected.
-    """
-    found = find_spec("xacro")
-    if found is None or found.origin is None:
-        raise ModuleNotFoundError("No module named 'xacro'", name="xacro")
-    folders = found.submodule_search_locations
-    spec = spec_from_file_location(_COPY, found.origin, submodule_search_locations=folders)
-    assert spec is not None
-    assert spec.loader is not None
-    copy = sys.modules[_COPY] = module_from_spec(spec)
-    spec.loader.exec_module(copy)
-    return copy
-
-
-xacro: Any = _load_xacro()
-
-
-def _import_substitution_args() -> Any:
-    """Return xacro's module for ``$(…)``, imported without yaml, which it rarely uses."""
-    absent = "yaml" not in sys.modules
-    if absent:
-        sys.modules["yaml"] = ModuleType("yaml")
-    try:
-        return import_module(f"{_COPY}.substitution_args")
-    finally:
-        if absent:
-            del sys.modules["yaml"]
-
-
-substitution_args: Any = _import_substitution_args()
 
 
 class Run:
@@ -108,6 +66,7 @@ class Run:
         self.elements = 0
         self.produced = 0
         self.codes = dict(codes or {})
+        self.shown: tuple[Any, dict[str, Any]] = None, {}
         self.patience = EvaluationLimits(lambda: make_time_error(self.place))
         record = result.lookups is not None
         self.lookups = LookupRecorder(lambda: self.node) if record else None
@@ -283,7 +242,7 @@ class Run:
         """
 
         def evaluate(node: XacroElement, macros: Any, symbols: Any) -> None:
-            self.elements += 1
+            self.elements += node.plain or 1
             if self.elements > MAX_ELEMENTS:
                 raise XacroError(
                     f"the expansion has more than {MAX_ELEMENTS} elements; check macros that "
@@ -291,6 +250,8 @@ class Run:
                     at=node.place._replace(calls=node.calls[:3]),
                     rule="endless-expansion",
                 )
+            if node.plain:
+                return
             before, self.node = self.node, node
             node.attributes.only_computed = True
             original(node, macros, symbols)
@@ -362,6 +323,7 @@ class Run:
                 )
             before, self.node = self.node, node
             calls = self.instances.calls
+            self.shown = symbols, {}
             arguments = tuple(
                 (k, self.show_argument(v, symbols)) for k, v in node.attributes.items()
             )
@@ -374,11 +336,17 @@ class Run:
         return call
 
     def show_argument(self, value: str, symbols: Any) -> str:
-        """Return an argument of a call evaluated, or as written if that may have effects."""
+        """Return an argument of a call evaluated, or as written if that may have effects.
+
+        Its value is kept for xacro, which evaluates the arguments next.
+        """
         if "$" not in value or "xacro." in value or len(value) > 200:
             return value
         try:
-            return str(self.eval_text(value, symbols))
+            evaluated = self.eval_text(value, symbols)
+            shown = str(evaluated)
+            self.shown[1][value] = evaluated
+            return shown
         except Exception:
             self.failed_text = None
             return value
@@ -387,6 +355,9 @@ class Run:
         """Evaluate a text as ``xacro.eval_text``, lexing and compiling each text once."""
         if "$" not in text:
             return text
+        table, shown = self.shown
+        if shown and symbols is table and text in shown:
+            return shown.pop(text)
         try:
             pieces = split_text(text)
         except Exception:

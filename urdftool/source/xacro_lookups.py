@@ -6,7 +6,7 @@ each element that reads it; so an answer is right for every scope, redefinition 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from .expansion import Lookup, LookupKind
@@ -17,6 +17,7 @@ _PROPERTY, _INCLUDE = "xacro:property", "xacro:include"
 _Site = tuple[SourceFile, int]
 _PLACES = "_places"
 """Attribute of a table of xacro: element by name that set it."""
+_NOTHING: Mapping[str, _Site] = {}
 
 
 class LookupRecorder:
@@ -45,8 +46,12 @@ class LookupRecorder:
         node = self._get_node()
         if definition is None or (node is None and not self._askers):
             return
-        asker = self._askers[-1] if self._askers else _get_site(node)
-        self.found.setdefault((asker, kind, name), {})[definition] = None
+        key = self._askers[-1] if self._askers else _get_site(node), kind, name
+        found = self.found.get(key)
+        if found is None:
+            self.found[key] = {definition: None}
+        else:
+            found[definition] = None
 
     def record_argument(self, element: XacroElement, name: str) -> None:
         """Store the first ``<xacro:arg>`` of a name, which gives its default."""
@@ -91,11 +96,14 @@ class LookupRecorder:
 
     def _wrap_resolve(self, original: Callable[..., Any]) -> Callable[..., Any]:
         def resolve(table: Any, key: str) -> Any:
-            if isinstance(dict.__getitem__(table, key), self._macro_type):
-                return original(table, key)
-            site = table.__dict__.get(_PLACES, {}).get(key)
+            value = dict.__getitem__(table, key)
+            if isinstance(value, self._macro_type):
+                return value
+            site = table.__dict__.get(_PLACES, _NOTHING).get(key)
             self.record("name", key, site)
-            if site is None or key not in table.unevaluated:
+            if key not in table.unevaluated:
+                return value
+            if site is None:
                 return original(table, key)
             return self._call_as(site, original, table, key)
 

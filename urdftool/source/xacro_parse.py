@@ -36,6 +36,7 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
     parser.buffer_text = True
     document = XacroDocument()
     stack: list[XacroElement] = []
+    sizes: list[int] = []  # XacroElement.plain of each element of the stack, as far as it is known
 
     def inside() -> Parent:
         return stack[-1] if stack else document
@@ -63,11 +64,16 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
             )
         inside().appendChild(element)
         stack.append(element)
+        sizes.append(0 if _is_computed(element) else 1)
 
     def end(_: str) -> None:
-        stack.pop()
+        size = stack.pop().plain = sizes.pop()
+        if sizes:
+            sizes[-1] = size and sizes[-1] and size + sizes[-1]
 
     def characters(text: str) -> None:
+        if "$" in text and sizes:
+            sizes[-1] = 0
         last = inside().lastChild
         kind = CDATA if cdata else TEXT
         if isinstance(last, Characters) and last.nodeType == kind and not cdata:
@@ -84,6 +90,8 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
         cdata = False
 
     def comment(text: str) -> None:
+        if "xacro:" in text and sizes:  # may be about the evaluation of comments
+            sizes[-1] = 0
         inside().appendChild(Characters(text, COMMENT))
 
     def instruction(target: str, text: str) -> None:
@@ -99,6 +107,14 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
     parser.ProcessingInstructionHandler = instruction
     run_parser(parser, file, stack)
     return document
+
+
+def _is_computed(element: XacroElement) -> bool:
+    """Tell whether xacro changes an element or its attributes."""
+    return element.tagName.startswith("xacro:") or any(
+        "$" in value or name.startswith(("xacro:", "xmlns"))
+        for name, value in element.attributes.items()
+    )
 
 
 def take_tree(file: SourceFile, calls: tuple[Call, ...]) -> XacroDocument:

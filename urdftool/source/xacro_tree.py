@@ -138,11 +138,22 @@ class XacroElement(Parent):
     """Element with its location.
 
     Attributes:
+        plain: Number of elements of a tree in which xacro changes nothing, this one included; 0 of
+            other elements.
         definition_of: Expansion whose current calls a copy of this element records; set on the
             definition of a macro, whose copies are instances of the macro.
     """
 
-    __slots__ = ("attributes", "calls", "definition_of", "file", "nodeName", "start", "tagName")
+    __slots__ = (
+        "attributes",
+        "calls",
+        "definition_of",
+        "file",
+        "nodeName",
+        "plain",
+        "start",
+        "tagName",
+    )
     nodeType = ELEMENT
 
     def __init__(
@@ -152,8 +163,10 @@ class XacroElement(Parent):
         file: SourceFile,
         start: int,
         calls: tuple[Call, ...],
+        plain: int = 0,
     ) -> None:
         """Create an element without children."""
+        self.plain = plain
         self.parentNode = None
         self.previousSibling = None
         self.nextSibling = None
@@ -210,6 +223,7 @@ class XacroElement(Parent):
             self.file,
             self.start,
             self.calls if calls is None else calls,
+            self.plain,
         )
         child = self.firstChild
         while child is not None:

@@ -5,6 +5,7 @@ from contextlib import suppress
 
 import pytest
 
+from tests.cases import list_cases
 from tests.formats.usd.stages import body, stage, turning
 from urdftool.errors import ModelError
 
@@ -54,7 +55,7 @@ BAD = {
 }
 
 
-@pytest.mark.parametrize("name", BAD)
+@pytest.mark.parametrize("name", list_cases(BAD, 3))
 def test_a_bad_stage_is_an_error_at_its_place(name, write, tmp_path):
     from urdftool.formats.usd.read import read
 
@@ -83,7 +84,7 @@ def test_export_of_a_bad_stage_writes_nothing(write, urdftool, tmp_path):
     assert not out.exists()
 
 
-@pytest.mark.parametrize("count", [12, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [4, pytest.param(100, marks=pytest.mark.slow)])
 def test_changed_bytes_of_a_binary_stage_are_an_error_or_another_robot(count, write, tmp_path):
     from pxr import Sdf
 

@@ -7,6 +7,7 @@ from tests.formats.usd.test_verify import ARM
 pytestmark = pytest.mark.library("pxr")
 
 
+@pytest.mark.slow
 def test_a_stage_is_exported_to_urdf_and_sdf_and_back(urdftool, write, tmp_path):
     urdf, stage = write("arm.urdf", ARM), tmp_path / "arm.usda"
     assert urdftool("export", "usd", urdf, "-o", str(stage)).code == 0
