@@ -63,7 +63,7 @@ def _load_xacro() -> Any:
     assert spec.loader is not None
     copy = sys.modules[_COPY] = module_from_spec(spec)
     spec.loader.exec_module(copy)
-    replace_methods(copy.Table)  # type: ignore[attr-defined]
+    replace_methods(copy.Table)
     return copy
 
 
