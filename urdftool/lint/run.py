@@ -287,6 +287,7 @@ def _check_description(
     }
     ran: set[str] = set()
     origins: dict[int, Any] = {}
+    hidden: list[Finding] = []
     rejections = Rejections(robot if report.format == "urdf" else None)
     for rule in rules:
         if "robot" in rule.needs and robot is None:
@@ -301,6 +302,9 @@ def _check_description(
                 finding = _convert_finding(rule, problem, settings, targets, robot)
                 if finding is None:
                     continue
+                if problem.pedantic and not settings.is_pedantic_on(rule.name):
+                    hidden.append(finding)
+                    continue
                 findings.append(finding)
                 if finding.effects:
                     rejections.add(rule.name, rule.select_keys(problem.effects))
@@ -309,6 +313,7 @@ def _check_description(
     suppressions, wrong = read_suppressions(documents)
     if suppressions or wrong:
         findings, report.ignored = suppress(findings, suppressions)
+        suppress(hidden, suppressions)  # their comments have a use
         selected = set(settings.get_names())
         tags = _collect_tags(description)
         idle = {name for name in selected if not applies_to(name, tags)}
@@ -382,6 +387,8 @@ def _run_rule(
         unknown = {key for problem in found for key in problem.effects or ()} - rule.effects.keys()
         if unknown:
             raise LookupError(f"no effect on {sorted(unknown)}")
+        if not rule.pedantic and any(problem.pedantic for problem in found):
+            raise LookupError("the rule names no pedantic case")
     except TooManyAttached:  # analysis-incomplete reports it
         subjects["robot"].memo.get(TooManyAttached, list).append(rule.name)
     except Exception as error:

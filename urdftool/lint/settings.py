@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 _LISTS = ("select", "ignore", "extend-select", "targets")
 _KEYS = (*_LISTS, "severity", "per-file-ignores", "variants", "robots", "exclude")
+PEDANTIC = "pedantic"
+"""Selects every rule, and what is off by default."""
+_EVERY = ("all", "ALL", "*", PEDANTIC)
 _LEVELS = ("off", "info", "warning", "error")
 
 
@@ -67,21 +70,28 @@ class Settings:
             targets: Active targets.
             tags: Tags that occur in the description.
         """
-        named = {*(self.select or ()), *self.extend_select}
         chosen = []
         for name in self.get_names():
             if applies_to(name, tags):
                 rule = get_rule(name)
-                if name in named or (rule.default and rule.is_enabled_for(targets)):
+                shown = rule.default or self.is_pedantic_on(name)
+                if self._is_named(name) or (shown and rule.is_enabled_for(targets)):
                     chosen.append(rule)
         return chosen
+
+    def is_pedantic_on(self, rule: str) -> bool:
+        """Tell whether the cases of a rule that are off by default are reported."""
+        return self._is_named(rule) or self._is_named(PEDANTIC)
+
+    def _is_named(self, word: str) -> bool:
+        return word in self.extend_select or word in (self.select or ())
 
 
 def _expand(selectors: Iterable[str]) -> set[str]:
     """Return the rule names that selectors denote."""
     names: set[str] = set()
     for selector in selectors:
-        if selector in ("all", "ALL", "*"):
+        if selector in _EVERY:
             names.update(FAMILY_OF)
         elif selector in FAMILIES:
             names.update(name for name, family in FAMILY_OF.items() if family == selector)
@@ -103,7 +113,7 @@ def check_selectors(selectors: Iterable[str], path: str | None = None) -> tuple[
     )
     for word in words:
         prefix = word[:-1] if word.endswith("*") else None
-        if word in FAMILY_OF or word in FAMILIES or word in ("all", "ALL", "*"):
+        if word in FAMILY_OF or word in FAMILIES or word in _EVERY:
             continue
         if prefix is not None and any(name.startswith(prefix) for name in FAMILY_OF):
             continue

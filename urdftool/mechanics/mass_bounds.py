@@ -32,7 +32,7 @@ plate."""
 NEAR = 0.1
 """Part of the box's length by which the center of mass counts as away from the ends of the box."""
 
-_SHORTEST = 1.05
+SHORTEST = 1.05
 """Least factor that a message states; below it the center of mass, near an end, is the reason."""
 
 MARGIN = 0.02
@@ -138,7 +138,7 @@ def check_spread(
     moments = tensor[0], tensor[3], tensor[5]
     spread = math.sqrt((sum(moments) / 2 - moments[axis]) / mass)
     times = 2 * spread / (high - low)
-    if times >= _SHORTEST:
+    if times >= SHORTEST:
         sentence = (
             f"would be possible only if {shapes} were at least {times:.3g} times as long along "
             f"{name}, where they span {low:.4g} to {high:.4g} m"

@@ -118,6 +118,8 @@ def get_facts(rule: Rule) -> list[tuple[str, str]]:
     if not rule.default:
         on = f"when selected (--extend-select {rule.name})"
     facts = [("Severity", severity), ("On", on)]
+    if rule.pedantic:
+        facts.append(("Off by default", f"{rule.pedantic} (--extend-select {rule.name})"))
     if rule.name in FIXES:
         facts.append(("Fix", FIXES[rule.name].described))
     for threshold, default in rule.thresholds.items():

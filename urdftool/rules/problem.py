@@ -28,6 +28,7 @@ class Problem:
         caused_by: Replaces the rule's, if it depends on the case.
         effects: Keys of the rule's effects that hold, if that depends on the case; None for those
             whose key names no case.
+        pedantic: Whether it is a case of the rule that is off by default; see ``Rule.pedantic``.
         alike: Key of problems that may be reported as one, if their messages differ in more than
             names and numbers: a text, number, bool or tuple of these.
         data: Values by name for fixes and other programs: texts, numbers and lists of these. No
@@ -44,6 +45,7 @@ class Problem:
         "group",
         "hint",
         "message",
+        "pedantic",
         "severity",
         "subject",
     )
@@ -60,6 +62,7 @@ class Problem:
         cause: Part | Element | Sequence[Part | Element] | None = None,
         caused_by: tuple[str, ...] | None = None,
         effects: Collection[str] | None = None,
+        pedantic: bool = False,
         alike: object = None,
         data: Mapping[str, Any] | None = None,
     ) -> None:
@@ -73,6 +76,7 @@ class Problem:
         self.cause = cause
         self.caused_by = caused_by
         self.effects = effects
+        self.pedantic = pedantic
         self.alike = alike
         self.data: Mapping[str, Any] = data or {}
 

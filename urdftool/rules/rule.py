@@ -34,6 +34,11 @@ Arguments of the decorator control how findings are reported together:
     public report. Effects, judged findings and this text are the table of evidence in
     docs/rules/index.md; a rule on by default needs one of them.
 
+``pedantic="robots without …"``
+    Cases of the rule that are off by default, because most findings of this kind were judged as
+    noise: ``Problem(pedantic=True)``. ``lint --extend-select RULE`` reports them, and
+    ``--extend-select pedantic`` those of all rules, with the rules that are off by default.
+
 ``of_motion=True``
     The problem matters only for moving parts, such as an inertia that is too large: for links that
     are fixed to the world, and for fixed joints, a warning becomes an info. Errors stay, because
@@ -104,6 +109,7 @@ class Rule:
         effects: Behavior of a reader on the defect, by target or reader, with a case in
             parentheses if another case of the same reader differs.
         default: Whether it is enabled without being selected.
+        pedantic: Cases that are off by default, as the end of a sentence; empty if there are none.
         needs: Names of the parameters that it requires.
         thresholds: Its thresholds with their defaults.
         group: Scope in which its findings are reported as one; None if each is reported.
@@ -129,6 +135,7 @@ class Rule:
     raised: Mapping[str, Severity] = field(default_factory=dict)
     effects: Mapping[str, str] = field(default_factory=dict)
     default: bool = True
+    pedantic: str = ""
     needs: tuple[str, ...] = ()
     thresholds: Mapping[str, Any] = field(default_factory=dict)
     group: Scope | None = None
@@ -224,6 +231,7 @@ def rule(
     raised: Mapping[str, Severity] | None = None,
     effects: Mapping[str, str] | None = None,
     default: bool = True,
+    pedantic: str = "",
     group: Scope | None = None,
     caused_by: tuple[str, ...] = (),
     of_motion: bool = False,
@@ -244,6 +252,7 @@ def rule(
             raised=raised or {},
             effects=effects or {},
             default=default,
+            pedantic=pedantic,
             needs=code.co_varnames[: code.co_argcount],
             thresholds=check.__kwdefaults__ or {},
             group=group,

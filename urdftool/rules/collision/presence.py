@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from statistics import median
+from statistics import fmean, median
 
 from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.bounds import Bounds, compute_size, has_extent
@@ -35,6 +35,7 @@ from ..xml.vocabulary_table import find_misspelled_children, is_for_another_read
 _FRAME = re.compile(r"optical|(^|_)frame$")
 _VIRTUAL = re.compile(r"(^|_)(virtual|dummy)(_|\d|$)|_visuals?$", re.IGNORECASE)
 _CONTACT = re.compile(r"wheel|caster|(^|_)(foot|feet)(_|\d|$)", re.IGNORECASE)
+_CONTACT_TARGETS = ("gazebo-classic", "gz", "mujoco", "pybullet", "moveit")
 _LOAD = "gz, gazebo-classic, pybullet, pinocchio, drake"
 _PASS = "gz, gazebo-classic, pybullet"
 _MARKER = 0.1
@@ -43,7 +44,7 @@ _MARKER = 0.1
 
 @rule(
     INFO,
-    raised=dict.fromkeys(("gazebo-classic", "gz", "mujoco", "pybullet", "moveit"), WARNING),
+    raised=dict.fromkeys(_CONTACT_TARGETS, WARNING),
     effects={
         _LOAD: "load the link without collision geometry: it makes no contact",
         "moveit": "ignores it when planning; MoveIt 2 warns",
@@ -51,9 +52,11 @@ _MARKER = 0.1
     },
     group="robot",
     formats=URDF_AND_SDF,
+    pedantic="without a target that makes contact, light links, and links of robots of few "
+    "collisions, except wheels and feet",
 )
 def missing_collision(
-    robot: Robot, *, smallest: float = 0.01, small: float = 0.03
+    robot: Robot, targets: frozenset[str], *, smallest: float = 0.01, small: float = 0.03
 ) -> Iterator[Problem]:
     """A link has visual geometry but no collision geometry.
 
@@ -72,6 +75,11 @@ def missing_collision(
     so is a single link without mass, such as the marker of a goal. A link that is fixed to the
     world cannot fall, and is an info. Neither is a robot without any
     collision that only Drake or MuJoCo reads, such as a pendulum of which the motion is computed.
+
+    If nothing shows that Gazebo, MuJoCo, PyBullet or MoveIt reads the robot, it is an info for
+    wheels and feet, for robots without any collision, and for links of the mass of the others where
+    most links have a collision. Others are off by default: fingers in the collision of a hand,
+    covers, and links of robots whose authors reduced the collisions.
     """
     if len(robot.links) == 1 and not robot.links[0].mass:
         return  # a marker, such as a goal
@@ -83,6 +91,7 @@ def missing_collision(
     sizes = _compute_sizes(robot, ghosts)
     odd = {link.name for link, _ in _find_odd_links(robot)}
     discarded = not keeps_visuals(robot)
+    is_simulated = not targets.isdisjoint(_CONTACT_TARGETS)
     for link in ghosts:
         if link.name in odd:
             continue
@@ -100,9 +109,25 @@ def missing_collision(
             "add a <collision>, best with a primitive shape",
             severity=INFO if is_fixed_to_world(robot, link) else None,
             effects=[_LOAD, "moveit", *["mujoco"] * discarded],
+            pedantic=not is_simulated and not _is_expected(robot, link),
             group="{count} links have a visual but no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
         )
+
+
+def _is_expected(robot: Robot, link: Link) -> bool:
+    """Tell whether the robot itself shows that a link should have a collision.
+
+    That is a wheel or foot, any link of a robot without collisions, and, where at least two thirds
+    of the links with a visual have a collision, a link of a fourth of their mean mass. The
+    fractions are chosen, without a source.
+    """
+    solid = [one for one in robot.links if one.collisions]
+    if not solid or _CONTACT.search(link.name):
+        return True
+    seen = [one for one in robot.links if one.visuals]
+    is_rule = 3 * sum(bool(one.collisions) for one in seen) >= 2 * len(seen)
+    return is_rule and link.mass >= fmean(one.mass for one in solid) / 4 > 0
 
 
 def _is_only_for_motion(robot: Robot) -> bool:

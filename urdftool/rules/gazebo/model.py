@@ -139,6 +139,7 @@ def rename_reserved(problem: Problem, context: FixContext) -> Proposal | None:
     effects={
         "gz, gazebo-classic": "load the robot, but nothing drives its joints",
     },
+    pedantic="files without a plugin, which a wrapper, a world or a program may add",
 )
 def missing_control_plugin(
     robot: Robot, description: Description, targets: frozenset[str], guessed: frozenset[str]
@@ -152,7 +153,7 @@ def missing_control_plugin(
 
     A plugin in an XML comment counts as one that the author left out. A file whose plugins are all
     of sensors is reported as one without; a file without plugins but with transmissions or
-    ``<ros2_control>`` as an info.
+    ``<ros2_control>`` is an info, and off by default.
 
     A file without plugins, transmissions and ``<ros2_control>`` is not reported, because a world,
     a wrapper or a program may add the plugin, nor one without plugins that only a ``<gazebo>`` tag
@@ -205,7 +206,8 @@ def missing_control_plugin(
         data |= {"wheel_separation": pair.separation, "wheel_radius": pair.radius}
     message = f"{which} {names} {verb}, but no Gazebo plugin {acts}; add {remedy}"
     is_complete = bool(plugins) or pair is not None
-    yield Problem(robot, message, data=data, severity=None if is_complete else INFO)
+    severity = None if is_complete else INFO
+    yield Problem(robot, message, data=data, severity=severity, pedantic=not is_complete)
 
 
 @missing_control_plugin.fix(UNSAFE)

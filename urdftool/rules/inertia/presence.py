@@ -69,6 +69,7 @@ _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-cla
     },
     group="robot",
     formats=URDF_AND_SDF,
+    pedantic="links fixed to the world, and robots of one link without collision, such as a goal",
 )
 def missing_inertial(
     robot: Robot, description: Description, targets: frozenset[str]
@@ -161,6 +162,7 @@ def missing_inertial(
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
             effects=_select_effects(robot, link, case),
             alike=outcome,
+            pedantic=outcome == "static" or (len(robot.links) == 1 and not link.collisions),
         )
 
 

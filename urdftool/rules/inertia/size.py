@@ -10,6 +10,7 @@ from ...mechanics.mass_bounds import (
     ALLOWED,
     CERTAIN,
     ROUNDING,
+    SHORTEST,
     check_spread,
     name_shapes,
 )
@@ -209,6 +210,7 @@ def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     of_motion=True,
     group="robot",
     formats=ANY_FORMAT,
+    pedantic="meshes that would have to be less than 2 times as long",
 )
 def inertia_exceeds_geometry(
     robot: Robot,
@@ -229,7 +231,31 @@ def inertia_exceeds_geometry(
     ``certain`` it is an info for meshes, which may lack heavy parts, and for links that have only
     visual geometry, which may be markers. The geometry of attached links without a mass of their
     own counts too, and is named. ``urdftool inertia robot`` applies the same checks.
+
+    It is an info, too, if three or more links have such a tensor, with all six numbers and less
+    than 5 times too long: identification by measured torques gives values that are right together,
+    not for each link. A mesh that would have to be less than 2 times as long is off by default.
     """
+    found = list(_find_large_inertias(robot, allowed, rounding, certain))
+    if sum(_is_like_identified(problem) for problem in found) >= _IDENTIFIED:
+        for problem in filter(_is_like_identified, found):
+            problem.severity = INFO
+    yield from found
+
+
+_IDENTIFIED = 3
+"""Number of links from which large tensors of a robot may be identified. Chosen, no source."""
+
+
+def _is_like_identified(problem: Problem) -> bool:
+    """Tell whether a tensor is full, and less than 5 times too long for its geometry."""
+    return bool(problem.data["is_full"]) and float(problem.data["times"]) < 5
+
+
+def _find_large_inertias(
+    robot: Robot, allowed: float, rounding: float, certain: float
+) -> Iterator[Problem]:
+    """Find the links whose inertia is larger than their geometry allows."""
     reach = get_extents(robot)
     slight = find_slight_parts(robot)
     for link, inertial, six in get_tensors(robot):
@@ -274,7 +300,8 @@ def inertia_exceeds_geometry(
                 caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
                 effects=_select_readers(six),
                 alike=(found.axis, min(len(attached), 3), kind),
-                data={"certain": found.certain},
+                data={"certain": found.certain, "times": found.amount, "is_full": all(six)},
+                pedantic=not found.certain and SHORTEST <= found.amount < 2,
             )
 
 

@@ -136,6 +136,7 @@ _PLANAR = {
     INFO,
     raised=dict.fromkeys(GAZEBO, ERROR),
     effects=_PLANAR,
+    pedantic="planar joints at the root of robots that are not for Gazebo",
 )
 def planar_or_floating(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A joint is planar or floating.
@@ -144,7 +145,8 @@ def planar_or_floating(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
     robot_state_publisher publishes no transform for a floating joint, and a fixed one for a planar
     joint. MuJoCo loads both types; Drake loads planar joints. Reported are robots for Gazebo or
     ROS, and joints that MuJoCo or Drake rejects: a floating joint above the root, and a planar one
-    with a damping.
+    with a damping. A planar joint at the root is the mobile base of a planner: it is off by default
+    for a robot that is not for Gazebo.
     """
     concerned = not targets.isdisjoint((*GAZEBO, *ROS))
     for joint in robot.joints:
@@ -152,6 +154,7 @@ def planar_or_floating(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
             continue
         conditions = _list_conditions(robot, joint)
         if concerned or _is_rejected(conditions):
+            is_base = {"planar", "at the root"} <= set(conditions)
             yield Problem(
                 joint,
                 f"joint '{joint.name}' is {joint.type}: Gazebo rejects it, and "
@@ -159,6 +162,7 @@ def planar_or_floating(robot: Robot, targets: frozenset[str]) -> Iterator[Proble
                 "leave the root free",
                 at=joint.locate_attribute("type"),
                 effects=select_holding(_PLANAR, *conditions),
+                pedantic=is_base and targets.isdisjoint(GAZEBO),
             )
 
 

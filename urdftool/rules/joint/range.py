@@ -119,12 +119,9 @@ def _make_continuous(joint: Joint) -> Proposal | None:
 def is_locked(joint: Joint) -> bool:
     """Tell whether a joint's lower and upper limit are written and equal."""
     limit = joint.limit
-    return (
-        joint.is_limited
-        and limit is not None
-        and limit.lower is not None
-        and limit.lower == limit.upper
-    )
+    if limit is None or limit.lower is None:
+        return False
+    return joint.is_limited and limit.lower == limit.upper
 
 
 @rule(
@@ -137,24 +134,26 @@ def is_locked(joint: Joint) -> bool:
     },
     group="robot",
     formats=ANY_FORMAT,
+    pedantic="joints whose velocity limit is 0 too",
 )
 def locked_by_limits(robot: Robot) -> Iterator[Problem]:
     """The lower and upper limit of a joint are equal.
 
     MuJoCo ignores such limits, so the joint turns freely, and planners have a variable without
-    effect. Make such a joint ``fixed``. If its velocity limit is 0 too, it is an info: intended.
+    effect. Make such a joint ``fixed``. A velocity limit of 0 too is intended, and off by default.
     Joints named as a dummy, which move no geometry and at most 1 g, are not reported.
     """
     for joint, limit, lower, upper in _iterate_bounded(robot):
         if lower == upper and not is_dummy(robot, joint):
             named = list_names_in_blocks(robot, joint)
-            remedy = _explain_names(named, joint)
             yield Problem(
                 joint,
-                f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; {remedy}",
+                f"limits of joint '{joint.name}' are both {lower:g}, so it cannot move; "
+                f"{_explain_names(named, joint)}",
                 at=limit.locate_attribute("upper"),
                 alike=bool(named),
                 severity=INFO if limit.velocity == 0.0 else None,
+                pedantic=limit.velocity == 0.0,
                 data={"position": lower, "named_by": [name for name, _ in named]},
             )
 

@@ -22,14 +22,15 @@ _SNAKE = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
     effects={
         "tf2": "rejects a frame that begins with a slash",
     },
+    pedantic="names that begin with an expression of xacro, for which a launch file passes a value",
 )
 def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem]:
     """A link's name begins with a slash or contains a space.
 
     Every link is a tf frame, and tf2 rejects such names. If the names of more than ``together``
     links begin with a slash, they are one finding, because usually an empty prefix is the cause.
-    It is an info if an expression of xacro that is empty precedes the slash, because the launch
-    file may pass a value.
+    It is an info, and off by default, if an expression of xacro that is empty precedes the slash,
+    because the launch file may pass a value.
     """
     slashed = [link for link in robot.links if link.name.startswith("/")]
     if len(slashed) > together:
@@ -42,6 +43,7 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
             f"'{first.name}'); {remedy}, or write the empty prefix",
             at=first.locate_attribute("name"),
             severity=INFO if is_computed else None,
+            pedantic=is_computed,
         )
     for link in robot.links:
         name = link.name
@@ -56,11 +58,13 @@ def invalid_frame_name(robot: Robot, *, together: float = 4) -> Iterator[Problem
             what, right = "contains a space", "_".join(inner.split())
         else:
             continue
+        is_computed = name.startswith("/") and _begins_with_expression(link)
         yield Problem(
             link,
             f"name of link '{name}' {what}, which tf2 rejects; write '{right}'",
             at=link.locate_attribute("name"),
-            severity=INFO if name.startswith("/") and _begins_with_expression(link) else None,
+            severity=INFO if is_computed else None,
+            pedantic=is_computed,
             data={"write": right},
         )
 

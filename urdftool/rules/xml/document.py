@@ -156,6 +156,8 @@ _NAME_EFFECTS = {
 @rule(
     WARNING,
     effects=_NAME_EFFECTS,
+    pedantic="transmissions with a ``type`` attribute, as in PR2 and Drake, where no reader "
+    "requires the name",
 )
 def missing_name(description: Description) -> Iterator[Problem]:
     """A robot, link, joint or transmission has no name.
@@ -180,6 +182,7 @@ def missing_name(description: Description) -> Iterator[Problem]:
                 at=at,
                 severity=severity,
                 effects=select_holding(_NAME_EFFECTS, *case),
+                pedantic=element.tag == "transmission" and "type" in element.attributes,
             )
 
 
