@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ..source.document import Element
 from .elements import GazeboExtension, Robot
 from .gazebo_plugins import BODY_SENSORS, get_library
-from .kinematics import link_poses
+from .kinematics import get_zero_poses
 from .mechanism import Camera, Closure, Light, MountedSensor
 from .numbers import number, parse_numbers
 from .part import Vector
@@ -69,7 +69,7 @@ def _add_sensor(robot: Robot, block: GazeboExtension, element: Element) -> None:
     on_link = reference in robot.link
     pose, frame = read_sensor_pose(element)
     if frame in robot.link and on_link and frame != reference:
-        poses = link_poses(robot)
+        poses = get_zero_poses(robot)
         if frame in poses and reference in poses:
             pose = poses[reference].invert() @ poses[frame] @ pose
     link, joint = (reference, "") if on_link else ("", reference)
@@ -180,7 +180,7 @@ def _add_loop(robot: Robot, reference: str, element: Element) -> None:
             robot.rejected_settings.append(rejected)
             return
     parent, child = ends
-    poses = link_poses(robot)
+    poses = get_zero_poses(robot)
     start = poses.get(child, IDENTITY)
     if frame and frame != child:
         start = poses.get(frame, IDENTITY)

@@ -39,6 +39,14 @@ def link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[s
     return poses
 
 
+def get_zero_poses(robot: Robot) -> dict[str, Pose]:
+    """Return :func:`link_poses` with all joints at 0, computed once for a robot.
+
+    Not for a robot whose joints are changed afterwards.
+    """
+    return robot.memo.get(get_zero_poses, lambda: link_poses(robot))
+
+
 def compute_motion(joint: Joint, value: float) -> Pose:
     """Return the transform of the child that a joint position [rad, m] causes.
 

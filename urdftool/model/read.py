@@ -86,6 +86,7 @@ def read_robot(root: Element) -> Robot:
     add_blocks(robot)
     add_appearance(robot)
     robot.native = list(list_block_elements(robot))
+    robot.memo.clear()  # callers may change the parts
     return robot
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..model.elements import Joint, Link, Robot, Vector
-from ..model.kinematics import link_poses
+from ..model.kinematics import get_zero_poses
 from ..model.pose import Pose, rotate
 
 _PAIRS = (
@@ -86,7 +86,7 @@ class Sides:
     def __init__(self, robot: Robot) -> None:
         """Find the pairs, and the plane that mirrors most of them."""
         self.pairs = list(_find_pairs(robot))
-        self.poses: dict[str, Pose] = link_poses(robot) if self.pairs else {}
+        self.poses: dict[str, Pose] = get_zero_poses(robot) if self.pairs else {}
         self.normal: int | None = None
         self.off: list[tuple[Pair, float]] = []
         moving = [pair for pair in self.pairs if _has_moving_links(robot, pair)]
@@ -205,7 +205,7 @@ def map_twin_links(robot: Robot) -> dict[str, str]:
     several = {name: others for name in links if (others := find_twins(name, links))}
     twins = {name: others[0] for name, others in several.items() if len(others) == 1}
     if len(twins) < len(several):
-        poses = link_poses(robot)
+        poses = get_zero_poses(robot)
         for name, others in several.items():
             fitting = [one for one in others if _is_mirrored(robot, poses, name, one)]
             if len(others) > 1 and fitting:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ..model.elements import Joint, Robot
-from ..model.kinematics import link_poses
+from ..model.kinematics import get_zero_poses
 from ..model.part import Vector
 from ..model.pose import add, compute_cross, compute_dot, compute_norm, make_pose, rotate
 
@@ -80,7 +80,7 @@ def _is_one_joint(robot: Robot, joints: list[Joint]) -> bool:
 
 def _locate_axis(robot: Robot, joint: Joint) -> tuple[Vector, Vector] | None:
     """Return a point [m] and the unit direction of a joint's axis in the frame of the root."""
-    poses = robot.memo.get("poses at zero", lambda: link_poses(robot))
+    poses = get_zero_poses(robot)
     x, y, z = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
     length = compute_norm((x, y, z))
     if joint.parent not in poses or not length:

@@ -350,8 +350,13 @@ def _is_between(robot: Robot, link: Link) -> bool:
         for joint in robot.moving_joints
         if robot.tree.bodies.get(joint.parent) == own
     }
-    solid = {robot.tree.bodies.get(one.name) for one in robot.links if one.collisions}
+    solid = robot.memo.get(_find_solid_bodies, lambda: _find_solid_bodies(robot))
     return not solid.isdisjoint(below) and not solid.isdisjoint((own, above))
+
+
+def _find_solid_bodies(robot: Robot) -> set[str | None]:
+    """Find the rigid bodies with a collision, by the names of their first links."""
+    return {robot.tree.bodies.get(one.name) for one in robot.links if one.collisions}
 
 
 def _is_rotating_inside(robot: Robot, link: Link) -> bool:

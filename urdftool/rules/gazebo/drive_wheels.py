@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...model.elements import Joint, Plugin, Robot, Vector
-from ...model.kinematics import link_poses
+from ...model.kinematics import get_zero_poses
 from ...model.pose import Pose, compute_norm, rotate
 from ...model.read import number
 from ...source.document import Element
@@ -95,7 +95,7 @@ def find_drives(robot: Robot) -> Iterator[Drive]:
     poses: dict[str, Pose] = {}
     for plugin in robot.plugins:
         if _ROLLS.search(plugin.filename.rpartition("/")[2]):
-            poses = poses or link_poses(robot)
+            poses = poses or get_zero_poses(robot)
             yield from _make_plugin_drive(robot, plugin, poses)
     if robot.source is None or not (robot.ros2_controls or robot.transmissions):
         return
@@ -185,7 +185,7 @@ def _find_controller_drives(
     for file in get_package(robot, description).controller_files:
         for controller in file.controllers:
             if controller.kind == "DiffDriveController":
-                poses = poses or link_poses(robot)
+                poses = poses or get_zero_poses(robot)
                 yield from _make_controller_drive(robot, controller, poses)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import product
 
 from ...model.elements import Robot, Vector
-from ...model.kinematics import link_poses
+from ...model.kinematics import get_zero_poses
 from ...model.pose import compute_dot, compute_norm
 from ..mesh.link_extents import ShapeKind, get_extents
 from ..rule import GAZEBO, ROS, WARNING, Problem, rule
@@ -127,7 +127,7 @@ def _find_commanded_pairs(robot: Robot) -> Iterator[Pair]:
     }
     if len(driven) < 2:
         return
-    poses = link_poses(robot)
+    poses = get_zero_poses(robot)
     for pair in get_sides(robot).pairs:
         wheels = [get_wheel(robot, poses, j.name) for j in (pair.left_joint, pair.right_joint)]
         rolls = is_wheel(robot, pair.left) and is_wheel(robot, pair.right)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ...model.bounds import Bounds
 from ...model.elements import Joint, Robot, Vector
-from ...model.kinematics import link_poses
+from ...model.kinematics import get_zero_poses
 from ...model.pose import compute_norm
 from ..mesh.link_extents import get_extents
 from .contact import is_wheel
@@ -62,7 +62,7 @@ def find_wheel_pair(robot: Robot) -> WheelPair | None:
     joints = find_driven_joints(robot)
     if len(joints) != 2:
         return None
-    poses = link_poses(robot)
+    poses = get_zero_poses(robot)
     wheels = [wheel for joint in joints if (wheel := get_wheel(robot, poses, joint.name))]
     if len(wheels) != 2 or any(wheel.axis[1] < 0.999 for wheel in wheels):
         return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 from ...mechanics.mass_bounds import (
@@ -107,16 +107,21 @@ def is_last_decimal(robot: Robot, moment: float) -> bool:
     At least three other tensors must use that decimal, which several links with one placeholder
     do not.
     """
-    found = [
+    found = robot.memo.get(_list_decimals, lambda: _list_decimals(robot))
+    last = [decimals for decimals, _ in found if math.isclose(moment, 10.0**-decimals)]
+    using = sum(len({*six[::3], six[5]}) > 1 for decimals, six in found if decimals in last)
+    rounded = [decimals for decimals, _ in found if last and decimals <= last[0]]
+    return using >= _USING and 2 * len(rounded) > sum(1 for _ in get_tensors(robot))
+
+
+def _list_decimals(robot: Robot) -> list[tuple[int, Sequence[float]]]:
+    """List the tensors that are written with decimals, each with their number."""
+    return [
         (decimals, six)
         for _, inertial, six in get_tensors(robot)
         if (decimals := _count_decimals(inertial.inertia.xml if inertial.inertia else None))
         is not None
     ]
-    last = [decimals for decimals, _ in found if math.isclose(moment, 10.0**-decimals)]
-    using = sum(len({*six[::3], six[5]}) > 1 for decimals, six in found if decimals in last)
-    rounded = [decimals for decimals, _ in found if last and decimals <= last[0]]
-    return using >= _USING and 2 * len(rounded) > sum(1 for _ in get_tensors(robot))
 
 
 _PLAUSIBLE = 0.3

@@ -13,7 +13,7 @@ from ...mechanics.tensor import (
 )
 from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.elements import Inertial, Link, Robot, Vector
-from ...model.kinematics import MOVABLE, get_limits, link_poses
+from ...model.kinematics import MOVABLE, get_limits, get_zero_poses
 from ...model.pose import Pose
 from ...source.location import Place
 from ..fix import FixContext, Proposal, set_attribute, unsafe
@@ -429,7 +429,7 @@ def tiny_moving_inertia(
         links = whole.get(joint.child, [])
         if not any(link.mass > 0 for link in links) or not _may_be_below(links, most, slides):
             continue
-        poses = poses or link_poses(robot)
+        poses = poses or get_zero_poses(robot)
         inertia = compute_joint_inertia(robot, joint, poses) if joint.child in poses else 0.0
         if not 0 < inertia < most:
             continue

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ...model.bounds import Bounds
 from ...model.elements import Joint, Robot, Vector
-from ...model.kinematics import link_poses
+from ...model.kinematics import get_zero_poses
 from ...model.pose import Pose, rotate
 from ..mesh.link_extents import LinkExtents, get_extents
 from ..rule import ANY_FORMAT, WARNING, Problem, rule
@@ -118,7 +118,7 @@ def _measure_joints(robot: Robot) -> Iterator[_AxisDistances]:
     turning = [joint for joint in robot.joints if joint.type in _TURNING]
     if not turning:
         return
-    poses, body_of, reach = link_poses(robot), robot.tree.bodies, get_extents(robot)
+    poses, body_of, reach = get_zero_poses(robot), robot.tree.bodies, get_extents(robot)
     inverse = {name: pose.invert() for name, pose in poses.items()}
     members: dict[str, list[str]] = {}
     for name, body in body_of.items():

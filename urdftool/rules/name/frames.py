@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Robot, Sensor
-from ...model.kinematics import link_poses
+from ...model.kinematics import get_zero_poses
 from ...model.pose import IDENTITY, Pose, Rotation, compute_dot, make_pose, rotation_from_rpy
 from ..fix import FixContext, Proposal, set_text, unsafe
 from ..gazebo.sensors import get_pose_in_link
@@ -67,7 +67,7 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
         if off > tolerance:
             looks_ahead = abs(rotation[0][2] - 1) <= tolerance
             if looks_ahead:
-                poses = link_poses(robot) if poses is None else poses
+                poses = get_zero_poses(robot) if poses is None else poses
                 if _is_upright_by_roll(rotation, poses.get(joint.parent)):
                     continue
             turns = sum(

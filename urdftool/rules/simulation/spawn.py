@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ...geometry.penetration import Convex
 from ...model.elements import Robot
-from ...model.kinematics import MOVABLE, link_poses
+from ...model.kinematics import MOVABLE, get_zero_poses
 from ...model.pose import rotate, transpose
 from ..collision.convex_bodies import get_convex_bodies
 from ..inertia.joint_inertia import compute_joint_inertia
@@ -31,7 +31,7 @@ def stiff_joint_damping(robot: Robot, *, timestep: float = 0.001) -> Iterator[Pr
     [s] is Δt. PyBullet begins to oscillate at this inertia, within 1 %; MuJoCo integrates damping
     implicitly.
     """
-    poses = link_poses(robot)
+    poses = get_zero_poses(robot)
     for joint in robot.joints:
         damping = joint.get_resistance("damping")
         if joint.type not in MOVABLE or not damping or joint.child not in poses:
