@@ -183,6 +183,7 @@ def test_close(a, b, same):
     assert close(a, b, 1e-9) is bool(same)
 
 
+@pytest.mark.slow
 @pytest.mark.corpus
 def test_a_robot_is_equal_to_itself():
     from tests.conftest import CORPUS

@@ -5,6 +5,7 @@ from functools import partial
 import pytest
 
 import urdftool as api
+from tests.cases import list_cases
 from urdftool.compare.compare import compare_robots
 from urdftool.model.load import load
 from urdftool.model.settings import SURFACE, TABLES, get_number
@@ -50,7 +51,7 @@ FRICTIONS = [
 ]
 
 
-@pytest.mark.parametrize(("blocks", "contact", "friction"), FRICTIONS)
+@pytest.mark.parametrize(("blocks", "contact", "friction"), list_cases(FRICTIONS, 3))
 @pytest.mark.library("mujoco")
 @pytest.mark.library("pxr")
 def test_every_format_has_the_friction_that_is_simulated(
@@ -81,6 +82,7 @@ def test_a_later_spring_of_zero_removes_the_spring(write):
     assert load(write(of("j", stiff) + of("j", slack))).joint["j"].spring is None
 
 
+@pytest.mark.slow
 @pytest.mark.library("mujoco")
 def test_every_format_has_no_spring_after_one_of_zero(write, tmp_path):
     stiff, slack = ("<springStiffness>5</springStiffness>", "<springStiffness>0</springStiffness>")

@@ -56,10 +56,12 @@ def test_any_other_robot_has_no_world(write, text):
     "words",
     [
         ("simulate", "IN", "--format", "json"),
-        ("simulate", "IN", "--format", "json", "--engine", "mujoco"),
+        pytest.param(
+            ("simulate", "IN", "--format", "json", "--engine", "mujoco"), marks=pytest.mark.slow
+        ),
         ("info", "IN", "--format", "json"),
         ("graph", "IN", "-o", "-"),
-        ("view", "IN", "--picture", "OUT.png"),
+        pytest.param(("view", "IN", "--picture", "OUT.png"), marks=pytest.mark.slow),
         ("inertia", "robot", "IN", "--format", "json"),
         ("collision", "IN", "-o", "OUT.urdf"),
     ],

@@ -8,6 +8,7 @@ import math
 
 import pytest
 
+from tests.cases import list_cases
 from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
@@ -120,7 +121,7 @@ def _found(tmp_path, robot, *targets, select=("tiny-moving-inertia",)):
     return [finding.code for finding in check_file(path, Options(settings)).findings]
 
 
-@pytest.mark.parametrize("inertia", [1e-6, 5e-8, 1e-11, 1e-13])
+@pytest.mark.parametrize("inertia", list_cases([1e-13, 1e-6, 5e-8, 1e-11], 4))
 @pytest.mark.parametrize("step", [0.001, 0.004])
 def test_a_small_inertia_alone_does_no_harm(tmp_path, inertia, step):
     robot = _robot(inertia, effort=0.0)
@@ -156,7 +157,7 @@ def test_the_rule_speaks_of_damping_where_pybullet_oscillates(tmp_path, damping)
         assert bool(_found(tmp_path, robot, select=("stiff-joint-damping",))) == diverges
 
 
-@pytest.mark.parametrize("effort", [0.01, 1.0])
+@pytest.mark.parametrize("effort", list_cases([0.01, 1.0], 2))
 def test_a_torque_that_throws_the_link_in_one_step_does_not_settle(tmp_path, effort):
     """At 0.01 rad of E·Δt²/I a controller settles, at 0.1 rad it does not."""
     for thrown, settles in ((0.01, True), (0.1, False), (1.0, False)):

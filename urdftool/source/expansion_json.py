@@ -237,33 +237,41 @@ class Reader:
     def _read_nodes(self, nodes: Any) -> list[ExpandedNode]:
         """Return nodes whose values have the expected types, below one root element."""
         found: list[ExpandedNode] = []
-        sizes, stacks = [len(file.data) for file in self._files], self._stacks
+        files, stacks = self._files, self._stacks
+        sizes = [len(file.data) for file in files]
         reached, roots = 1, 0
         for node in nodes:
-            depth, kind, data = node[:3]
-            if not 0 < _require_number(depth) <= min(reached, MAX_DEPTH + 1):
-                raise ValueError(f"depth {depth} below {reached}")
-            if isinstance(kind, int):
-                if kind not in _KINDS:
-                    raise ValueError(f"kind {kind}")
-                found.append((depth, kind, _require_text(data)))
-                reached = depth
+            if len(node) != _PARTS:
+                found.append(_read_characters(*node, reached))
+                reached = found[-1][0]
                 continue
-            if not _TEXTS.issuperset(map(type, (kind, *data.values()))):
+            depth, kind, data, file, start, calls = node
+            if not type(depth) is type(file) is type(start) is type(calls) is int:
+                raise TypeError(f"{node!r} in place of numbers")
+            if type(kind) is not str or not _TEXTS.issuperset(map(type, data.values())):
                 raise TypeError("a tag or the value of an attribute is not text")
-            file, start, calls = node[3:]
-            if not type(file) is type(start) is type(calls) is int or min(node[3:]) < 0:
-                raise TypeError(f"{node[3:]!r} in place of numbers from 0")
-            if start > sizes[file]:
+            if not 0 < depth <= reached:
+                raise ValueError(f"depth {depth} below {reached}")
+            if file < 0 or calls < 0 or not 0 <= start <= sizes[file]:
                 raise ValueError(f"byte {start} of a file of {sizes[file]}")
-            found.append((depth, kind, data, self._files[file], start, stacks[calls]))
-            reached, roots = depth + 1, roots + (depth == 1)
+            found.append((depth, kind, data, files[file], start, stacks[calls]))
+            reached, roots = min(depth, MAX_DEPTH) + 1, roots + (depth == 1)
         if roots != 1:
             raise ValueError(f"{roots} root elements")
         return found
 
 
 _TEXTS = frozenset((str,))
+_PARTS = 6  # of an element: depth, tag, attributes, file, first byte, calls
+
+
+def _read_characters(depth: Any, kind: Any, data: Any, reached: int) -> ExpandedNode:
+    """Return a node that is not an element."""
+    if not 0 < _require_number(depth) <= reached:
+        raise ValueError(f"depth {depth} below {reached}")
+    if type(kind) is not int or kind not in _KINDS:
+        raise ValueError(f"kind {kind}")
+    return depth, kind, _require_text(data)
 
 
 def _pick(items: Sequence[T], index: Any) -> T:
