@@ -242,8 +242,8 @@ class Reader:
         reached, roots = 1, 0
         for node in nodes:
             if len(node) != _PARTS:
-                found.append(_read_characters(*node, reached))
-                reached = found[-1][0]
+                reached, kind, data = _read_characters(node, reached)
+                found.append((reached, kind, data))
                 continue
             depth, kind, data, file, start, calls = node
             if not type(depth) is type(file) is type(start) is type(calls) is int:
@@ -265,8 +265,9 @@ _TEXTS = frozenset((str,))
 _PARTS = 6  # of an element: depth, tag, attributes, file, first byte, calls
 
 
-def _read_characters(depth: Any, kind: Any, data: Any, reached: int) -> ExpandedNode:
-    """Return a node that is not an element."""
+def _read_characters(node: Any, reached: int) -> tuple[int, int, str]:
+    """Return depth, type and text of a node that is not an element."""
+    depth, kind, data = node
     if not 0 < _require_number(depth) <= reached:
         raise ValueError(f"depth {depth} below {reached}")
     if type(kind) is not int or kind not in _KINDS:
