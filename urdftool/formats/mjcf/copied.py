@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ...finding import Finding
 from ...model.elements import Robot
-from ...model.mechanism import Frame, NativeElement
+from ...model.mechanism import NativeElement
 from ..common.drive_choice import AUTO
 from .options import Options
-from .read_native_table import KINDS, OBJECTS
+from .read_extras import REFERENCE
+from .read_native_table import KINDS
 
 _PREFIX = {"camera": "cam", "material": "mat", "body": "mocap"}
 """Prefix of the fields of MuJoCo's model of parts."""
@@ -70,33 +70,6 @@ def list_uncopied(robot: Robot, unread: Iterable[Finding]) -> Iterator[Finding]:
     yield from (finding for finding in unread if finding.code not in codes)
 
 
-def list_sites(robot: Robot) -> Iterator[Frame]:
-    """Yield the frames that become sites: named ones, and those of bodies with copied sensors."""
-    measured = {
-        element.attributes.get(name)
-        for element in list_native(robot)
-        for name, kind in OBJECTS.items()
-        if element.section == "sensor" and element.attributes.get(kind) == "xbody"
-    }
-    for frame in robot.frames:
-        if frame.kind != "body":
-            yield frame
-        elif frame.link in measured:
-            yield replace(frame, name=_name_site(frame.link), kind="site")
-
-
-def refer_to_sites(robot: Robot) -> Iterator[NativeElement]:
-    """Yield the elements of a robot, with sensors that refer to the sites of :func:`list_sites`."""
-    moved = {frame.link for frame in robot.frames if frame.kind == "body"}
-    for element in robot.native:
-        changed: dict[str, str] = {}
-        for name, kind in OBJECTS.items():
-            link = element.attributes.get(name, "")
-            is_frame = element.section == "sensor" and element.attributes.get(kind) == "xbody"
-            if is_frame and link in moved:
-                changed |= {kind: "site", name: _name_site(link)}
-        yield replace(element, attributes=element.attributes | changed) if changed else element
-
-
-def _name_site(link: str) -> str:
-    return f"{link}_body_frame"
+def get_start(robot: Robot) -> Mapping[str, float]:
+    """Return the positions [rad or m] at which joints start, by name; zero for others."""
+    return next((c.positions for c in robot.configurations if c.name == REFERENCE), {})

@@ -6,8 +6,14 @@ import math
 
 from lxml import etree
 
-from ...model.elements import Origin
-from ...model.pose import Pose, Quaternion, quaternion_from_rotation, quaternion_from_rpy
+from ...model.elements import Origin, Vector
+from ...model.pose import (
+    Pose,
+    Quaternion,
+    quaternion_from_rotation,
+    quaternion_from_rpy,
+    rotation_from_quaternion,
+)
 from ..common.numbers import format_numbers_text
 
 _SAME = 1e-15
@@ -31,6 +37,22 @@ def set_pose(element: etree._Element, pose: Pose) -> None:
     quaternion = simplify_quaternion(quaternion_from_rotation(pose.rotation))
     if quaternion is not None:
         element.set("quat", format_numbers_text(quaternion))
+
+
+def read_position(text: str | None) -> Vector:
+    """Read a vector, such as a position [m]; zero for None."""
+    x, y, z = (float(part) for part in (text or "0 0 0").split())
+    return x, y, z
+
+
+def read_pose(element: etree._Element) -> Pose:
+    """Read the pose of an element from ``pos`` and ``quat``."""
+    w, a, b, c = (float(part) for part in (element.get("quat") or "1 0 0 0").split())
+    size = (w * w + a * a + b * b + c * c) ** 0.5
+    return Pose(
+        rotation_from_quaternion((w / size, a / size, b / size, c / size)),
+        read_position(element.get("pos")),
+    )
 
 
 def get_quaternion(origin: Origin) -> Quaternion | None:

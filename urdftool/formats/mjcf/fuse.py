@@ -14,13 +14,12 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...mechanics.spatial_inertia import combine
-from ...model.elements import Vector
-from ...model.pose import Pose, rotate, rotation_from_quaternion
+from ...model.pose import Pose, rotate
 from ..common.naming import UniqueNames
 from ..common.numbers import format_numbers_text
 from ..written import Written
 from .body import Bodies
-from .frame import set_pose
+from .frame import read_pose, read_position, set_pose
 from .joint import SITE
 from .link_inertia import LinkInertia, build_inertial_element
 from .structure import Structure
@@ -71,7 +70,7 @@ def fuse_links(
             if first != own:
                 continue  # a merged body would exclude contacts that one of the links has
         owner[link] = top
-        poses[link] = read_pose_of_element(body)  # those above it are merged already
+        poses[link] = read_pose(body)  # those above it are merged already
         _merge(body, bodies[top], sites)
     groups: dict[str, list[str]] = {}
     for link, top in owner.items():
@@ -89,21 +88,6 @@ def fuse_links(
         )
     for link, top in owner.items():
         bodies[link] = bodies[top]
-
-
-def _compute_vector(text: str | None) -> Vector:
-    x, y, z = (float(part) for part in (text or "0 0 0").split())
-    return x, y, z
-
-
-def read_pose_of_element(element: etree._Element) -> Pose:
-    """Read the pose of an element from ``pos`` and ``quat``."""
-    w, a, b, c = (float(part) for part in (element.get("quat") or "1 0 0 0").split())
-    size = (w * w + a * a + b * b + c * c) ** 0.5
-    return Pose(
-        rotation_from_quaternion((w / size, a / size, b / size, c / size)),
-        _compute_vector(element.get("pos")),
-    )
 
 
 def _get_kept(sections: Mapping[str, etree._Element]) -> set[str]:
@@ -143,7 +127,7 @@ def _collides(body: etree._Element) -> bool:
 
 def _merge(body: etree._Element, into: etree._Element, sites: UniqueNames) -> None:
     """Move the content of a body into another body, keeping its pose."""
-    at = read_pose_of_element(body)
+    at = read_pose(body)
     where = into.index(body)
     into.remove(body)
     name = body.get("name", "")
@@ -157,9 +141,9 @@ def _merge(body: etree._Element, into: etree._Element, sites: UniqueNames) -> No
             moved.append(child)
             continue
         if child.tag == "light" and child.get("dir"):
-            way = rotate(at.rotation, _compute_vector(child.get("dir")))
+            way = rotate(at.rotation, read_position(child.get("dir")))
             child.set("dir", format_numbers_text(way))
-        pose = at @ read_pose_of_element(child)
+        pose = at @ read_pose(child)
         for attribute in ("pos", "quat"):
             if attribute in child.attrib:
                 del child.attrib[attribute]

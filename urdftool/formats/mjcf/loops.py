@@ -8,6 +8,7 @@ from dataclasses import replace
 from lxml import etree
 
 from ...model.elements import Vector
+from ...model.kinematics import link_poses
 from ...model.mechanism import Closure
 from ...model.pose import (
     Pose,
@@ -22,7 +23,7 @@ from ...model.settings import Rejected
 from ..common.naming import UniqueNames
 from ..common.numbers import format_numbers_text
 from ..written import Written
-from .copied import has_copies
+from .copied import get_start, has_copies
 from .structure import WORLD, Structure
 
 KINDS = {"revolute": "connect", "continuous": "connect", "ball": "connect", "fixed": "weld"}
@@ -73,9 +74,10 @@ def _get_kind(closure: Closure) -> str | None:
 
 
 def _is_closed(structure: Structure, closure: Closure) -> bool:
-    """Tell whether both ends of a connection are in one place at the zero position."""
+    """Tell whether both ends of a connection are in one place where the joints start."""
+    poses = link_poses(structure.robot, dict(get_start(structure.robot)))
     one, other = (
-        _get_pose(structure, link) @ make_pose(origin)
+        (poses[link] if link in poses else _get_pose(structure, link)) @ make_pose(origin)
         for link, origin in (
             (closure.parent, closure.origin),
             (closure.child, closure.child_origin),
@@ -87,8 +89,8 @@ def _is_closed(structure: Structure, closure: Closure) -> bool:
 def _report_apart(closure: Closure, written: Written) -> None:
     written.report_loss(
         "loop",
-        f"connection '{closure.name}' is not exported: its ends are apart at the zero position, at "
-        "which MuJoCo computes the second one",
+        f"connection '{closure.name}' is not exported: its ends are apart where the joints start, "
+        "at which MuJoCo computes the second one",
         closure.place,
         kind="closed loop",
         name=closure.name,

@@ -35,6 +35,7 @@ from .native import add_native
 from .options import Options
 from .plan import Plan
 from .sensor import build_sensor_section
+from .source_frames import restore_frames
 from .structure import WORLD, Structure
 
 
@@ -78,6 +79,7 @@ def build_model_text(plan: Plan, assets: Assets, written: Written) -> bytes:
     sections["asset"] = _build_asset(assets, materials)
     if options.fuse:
         fuse_links(structure, bodies, sections, plan.masses, written)
+    restore_frames(structure, bodies, sections)
     add_native(structure, options, sections, written)
     report_losses(written.losses, bodies)
     return assemble(plan.name, sections)

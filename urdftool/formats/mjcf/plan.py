@@ -30,7 +30,7 @@ from ..common.upright import turn_upright
 from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
-from .copied import has_copied_home, has_copies, list_sites, refer_to_sites
+from .copied import has_copied_home, has_copies
 from .for_rl import (
     add_rotors,
     find_feet,
@@ -98,7 +98,8 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     is_for_rl = options.purpose == "rl"
     packages = robot.source.packages if robot.source is not None else None
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
-    structure = create_structure(robot, keep_locked=options.keep_locked_joints)
+    keep_locked = options.keep_locked_joints or robot.format == "mjcf"  # which holds them itself
+    structure = create_structure(robot, keep_locked=keep_locked)
     boxes = ShapeBoxes(robot)
     chosen = choose_home_positions(robot, options.pose, options.state, srdf, written)
     virtual_joint = srdf.virtual_joint if srdf else None
@@ -134,7 +135,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
         for joint in structure.joints
         if joint.name in structure.locked
     ]
-    frames = [*sites, *list_sites(robot)]
+    frames = [*sites, *(frame for frame in robot.frames if frame.kind != "body")]
     sensors = plan_sensors(structure, frames, written, base=options.base_sensors)
     actuators = plan_actuators(structure, options, loads, settings, ground, written)
     feet = find_feet(structure, ground, home.pose, home.positions) if is_for_rl else frozenset()
@@ -145,8 +146,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     planned = replace(
         structure.robot,
         joints=_set_efforts(structure.robot, actuators),
-        frames=sensors.frames,
-        native=list(refer_to_sites(robot)),
+        frames=[*sensors.frames, *(frame for frame in robot.frames if frame.kind == "body")],
         mounted_sensors=sensors.sensors,
         cameras=sensors.cameras,
         closures=plan_closures(structure, written),
@@ -193,11 +193,10 @@ def _set_efforts(robot: Robot, actuators: list[JointActuator]) -> list[Joint]:
 def _list_configurations(
     structure: Structure, positions: Mapping[str, float], options: Options
 ) -> list[Configuration]:
-    """Return the configurations of the model: ``home``, and those of the keys of an MJCF."""
+    """Return the configurations of the model: ``home``, the start and those of keys of an MJCF."""
     robot = structure.robot
-    copied = [one for one in robot.configurations if one.name != REFERENCE]
-    if not has_copies(robot, "keyframe"):
-        copied = []
+    has_keys = has_copies(robot, "keyframe")
+    copied = [one for one in robot.configurations if has_keys or one.name == REFERENCE]
     if has_copied_home(robot, options):
         return copied
     own = Configuration(None, "home", _list_single(structure, positions))

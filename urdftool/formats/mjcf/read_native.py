@@ -16,7 +16,6 @@ from ...model.provenance import Written
 from ...model.settings import OF_WORLD
 from ...source.document import Element, parse
 from ...source.location import SourceFile
-from .read_anchors import move_anchors
 from .read_compile import Row
 from .read_context import Context
 from .read_defaults import Defaults
@@ -109,7 +108,6 @@ def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
     """Yield the elements of the sections that are copied, and their default classes."""
     if _has_created_elements(text):
         return
-    has_reference = any(row["ref"] for row in context.list_rows("joint"))
     for tag in COPIED:
         made = [
             _make_native(context, tag, element)
@@ -120,10 +118,6 @@ def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
         ]
         if tag in MERGED:
             made = _merge(made)
-        if tag == "equality":
-            move_anchors(context, made)
-        if has_reference and _is_at_reference(tag, made):
-            continue
         values = context.compiled.values.get(tag, [])
         if tag in KINDS and len(made) == len(values):
             for element, value in zip(made, values, strict=True):
@@ -147,11 +141,6 @@ def _merge(elements: list[NativeElement]) -> list[NativeElement]:
     for first in tags.values():
         first.children = _merge(first.children)
     return list(tags.values())
-
-
-def _is_at_reference(tag: str, made: list[NativeElement]) -> bool:
-    """Tell whether elements need the positions at which joints start, where the robot has zero."""
-    return tag == "equality" or any("qpos" not in e.attributes for e in made if e.tag == "key")
 
 
 def _make_native(context: Context, section: str, element: Element) -> NativeElement:

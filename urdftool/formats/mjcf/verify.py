@@ -304,9 +304,12 @@ def _check_frames(
 ) -> Check:
     check = Check("frames", f"pose of every link, {len(configurations)} configurations", POSE)
     torn = declared.has_any(*TORN)
+    frames = [frame for frame in mechanics.robot.frames if frame.kind == "body"]
+    in_link = {frame.link: get_origin_matrix(frame.origin) for frame in frames}
     for positions in configurations:
         compiled.set_pose(positions)
-        for link, expected in mechanics.compute_frames(positions).items():
+        for link, pose in mechanics.compute_frames(positions).items():
+            expected = pose @ in_link.get(link, np.eye(4))
             found = compiled.get_frame(link)
             difference = math.inf if found is None else float(abs(found - expected).max())
             check.compare(difference, f"link '{link}'", known=torn)

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from ...model.elements import Robot
 from ...model.mechanism import NativeElement
-from .copied import has_copied_actuators, list_native, refer_to_sites
+from .copied import has_copied_actuators, list_native
 from .options import Options
 from .read_native_table import MERGED
 
@@ -19,9 +19,7 @@ _NAMED = ("tendon", "contact")
 def select_native(source: Robot, options: Options) -> list[NativeElement]:
     """Return the elements of a source that its export copies: all but replaced actuators."""
     copied = has_copied_actuators(source, options)
-    if not list_native(source):
-        return []
-    return [e for e in refer_to_sites(source) if copied or e.section != "actuator"]
+    return [e for e in list_native(source) if copied or e.section != "actuator"]
 
 
 def keep_native(expected: Robot, result: Robot) -> list[NativeElement]:

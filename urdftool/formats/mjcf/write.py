@@ -93,11 +93,11 @@ def write(robot: Robot, options: Options | None = None) -> Written:
 
 def _report_unexpressed(robot: Robot, written: Written) -> None:
     """Report what the reader left out and no element of the export has."""
-    expressed: tuple[str, ...] = EXPRESSED
-    if has_copies(robot, "keyframe") and not any(c.name == REFERENCE for c in robot.configurations):
-        expressed = (*EXPRESSED, "configuration")
-    rest = replace(robot, unread=tuple(list_uncopied(robot, robot.unread)))
-    report_unexpressed(rest, written, expressed=expressed)
+    kept = has_copies(robot, "keyframe")
+    left = [c for c in robot.configurations if not kept and c.name != REFERENCE]
+    unread = tuple(list_uncopied(robot, robot.unread))
+    rest = replace(robot, unread=unread, configurations=left)
+    report_unexpressed(rest, written, expressed=EXPRESSED)
 
 
 def get_model_name(robot: Robot) -> str:
