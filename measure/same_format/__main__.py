@@ -1,4 +1,8 @@
-"""Count what an export to the own format keeps: ``python -m measure.same_format``."""
+"""Count what an export to the own format keeps: ``python -m measure.same_format``.
+
+With files, the world poses of their parts are compared with those of their exports:
+``python -m measure.same_format FILE.xml ...``.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +10,11 @@ import sys
 import tempfile
 from pathlib import Path
 
+from urdftool.errors import UrdftoolError
+
 from .run import measure_mjcf
 from .sdf import measure_sdf
+from .states import compare_file
 
 
 def main() -> int:
@@ -21,5 +28,23 @@ def main() -> int:
     return int(lost > 0)
 
 
+def compare_files(paths: list[str]) -> int:
+    """Print a row for each MJCF with the largest differences; return 1 if there is one."""
+    found = 0
+    for path in paths:
+        try:
+            result = compare_file(Path(path))
+        except (ValueError, UrdftoolError) as error:
+            print(f"| {path} | not compared: {str(error)[:90]!r} |")
+            continue
+        found += bool(result.differing)
+        worst = sorted(result.differing.items(), key=lambda item: -item[1])[:5]
+        count = sum(result.compared.values())
+        text = ", ".join(f"{name} {off:.1e}" for name, off in worst) or "equal"
+        print(f"| {path} | {result.moved} | {count} | {text} | {', '.join(sorted(result.codes))} |")
+    print(f"{len(paths)} files, {found} with a difference")
+    return int(found > 0)
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(compare_files(sys.argv[1:]) if sys.argv[1:] else main())

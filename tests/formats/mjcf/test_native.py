@@ -4,14 +4,16 @@ import pytest
 
 pytest.importorskip("mujoco")
 
+import mujoco
 from lxml import etree
 
 from measure.same_format import mjcf
 from measure.same_format.run import export_text, list_differing_fields
+from measure.same_format.states import compare_file
 from urdftool.compare.compare import compare_robots
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.read import read
-from urdftool.formats.mjcf.verify import verify
+from urdftool.formats.mjcf.verify import verify, verify_copy
 from urdftool.formats.mjcf.write import write
 
 KEPT = (
@@ -99,15 +101,14 @@ def test_two_files_are_compared_with_their_copied_elements(tmp_path, old, new, t
 
 
 def test_what_a_copied_element_names_must_be_there(tmp_path):
-    (tmp_path / "a.xml").write_text(add("held joint", "joint sensor", "energy sensor"))
-    written = write(read(tmp_path / "a.xml").robot, Options())
+    text = add("held joint", "subtree sensor", "frame sensor of a geom", "energy sensor")
+    (tmp_path / "a.xml").write_text(text)
+    robot = read(tmp_path / "a.xml").robot
+    robot.link["b"].collisions.clear()
+    robot.link["b"].visuals.clear()
+    written = write(robot, Options())
     lost = [loss for loss in written.losses if loss.code == "lossy-mujoco-element"]
-    assert [loss.message.partition(":")[0] for loss in lost] == [
-        "<motor> 'm'",
-        "<joint>",
-        "<jointpos> 'jp'",
-        "<key> 'home'",
-    ]
+    assert [loss.message.partition(":")[0] for loss in lost] == ["<framequat>"]
     assert lost[0].location.line
     assert "e_potential" in written.text
 
@@ -118,3 +119,61 @@ def test_other_formats_report_each(tmp_path):
     assert {"unread-tendon", "unread-setting", "unread-display", "unread-custom"} <= losses.keys()
     assert "noise of <gyro> g" in losses["unread-setting"].data["names"]
     assert "sleep of <body> a" in losses["unread-setting"].data["names"]
+
+
+MOVED = """<mujoco><compiler angle="radian"/><worldbody>
+<body name="a" pos="0 0 1" euler="0.2 0.3 0"><joint name="j" pos="0.3 0 0.1" axis="0 1 0"/>
+<geom size=".1" pos="0.1 0 0" mass="1"/><site name="s" pos="0 0.1 0"/>
+<camera name="track" mode="track" pos="0 -1 0"/><camera name="com" mode="trackcom" pos="0 -1 0"/>
+<camera name="aim" mode="targetbody" target="b" pos="1 1 1"/>
+<light name="lamp" mode="track" pos="0 0 2" dir="0 1 -1"/>
+<body name="b" pos="0 0.4 0"><joint name="k" pos="0 0.2 0.1" axis="1 0 0" ref="0.4" range="0 1"/>
+<joint name="l" pos="0.2 0 0" axis="0 0 1" ref="-0.3"/><geom name="g" size=".1" mass="2"/>
+<body name="c" pos="0.5 0 0"><joint name="n" type="slide" axis="0 0 1" ref="0.1"/>
+<geom size=".1" mass="1"/></body></body></body></worldbody>
+<tendon><spatial name="t" stiffness="10"><site site="s"/><geom geom="g"/><site site="s"/></spatial>
+</tendon>
+<equality><weld name="w" body1="c" body2="a"/><connect body1="b" body2="a" anchor="0 0.1 0"/>
+<joint joint1="n" joint2="j" polycoef="0 0.5 0 0 0"/></equality>
+<sensor><framepos name="f" objtype="xbody" objname="a" reftype="xbody" refname="b"/></sensor>
+<keyframe><key name="home"/></keyframe></mujoco>"""
+
+
+def test_frames_and_starts_stay_where_the_source_has_them(tmp_path):
+    path = tmp_path / "a.xml"
+    path.write_text(MOVED)
+    result = compare_file(path)
+    assert (result.moved, result.differing) == (6, {})
+    assert result.compared["camera"] == 5 * 3 * 12
+    assert result.compared["light"] == 5 * 6
+    robot = read(path).robot
+    written = write(robot, Options())
+    checks = verify_copy(robot, Options(), written)
+    assert [check.name for check in checks if check.verdict == "differs"] == []
+    models = [mujoco.MjModel.from_xml_string(text) for text in (MOVED, written.text)]
+    for name in ("qpos0", "key_qpos", "eq_data", "tendon_length0", "jnt_range", "dof_invweight0"):
+        one, other = (getattr(model, name) for model in models)
+        assert one == pytest.approx(other, abs=1e-7), name
+
+
+def test_couplings_of_a_generated_model_are_relative_to_the_start(tmp_path):
+    """An export of a model with ``<replicate>`` builds couplings itself."""
+    extra = '<replicate count="2" offset="0 0 1"><geom size="0.1"/></replicate>'
+    text = MOVED.replace("</worldbody>", extra + "</worldbody>")
+    (tmp_path / "a.xml").write_text(text)
+    model = mujoco.MjModel.from_xml_string(write(read(tmp_path / "a.xml").robot, Options()).text)
+    coupling = list(model.eq_type).index(int(mujoco.mjtEq.mjEQ_JOINT))
+    assert model.eq_data[coupling][:2] == pytest.approx((0.0, 0.5))
+    connect = list(model.eq_type).index(int(mujoco.mjtEq.mjEQ_CONNECT))
+    assert model.eq_data[connect][:3] == pytest.approx((0.0, 0.1, 0.0))
+
+
+def test_a_body_that_a_camera_follows_is_not_merged(tmp_path):
+    inner = '<body name="d" pos="0.1 0 0"><camera name="on" {}pos="0 0 1"/></body>'
+    found = []
+    for mode in ("", 'mode="track" '):
+        text = MOVED.replace('<geom size=".1" pos', inner.format(mode) + '<geom size=".1" pos')
+        (tmp_path / "a.xml").write_text(text)
+        text = write(read(tmp_path / "a.xml").robot, Options(fuse=True)).text
+        found.append('<body name="d"' in text)
+    assert found == [False, True]

@@ -3,7 +3,7 @@
 MuJoCo welds a body without a joint to its parent, but it still costs time in every step. The merged
 body has the exact mass properties of its links and keeps the poses of their geometry, sensors and
 frames. A body is not merged if something refers to it, if a force or touch sensor measures at it,
-or if gravity acts differently on it and on its parent.
+if a camera or light follows it, or if gravity acts differently on it and on its parent.
 """
 
 from __future__ import annotations
@@ -14,11 +14,13 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...mechanics.spatial_inertia import combine
+from ...model.elements import Robot
 from ...model.pose import Pose, rotate
 from ..common.naming import UniqueNames
 from ..common.numbers import format_numbers_text
 from ..written import Written
 from .body import Bodies
+from .copied import list_native
 from .frame import read_pose, read_position, set_pose
 from .joint import SITE
 from .link_inertia import LinkInertia, build_inertial_element
@@ -47,7 +49,7 @@ def fuse_links(
         masses: Mass properties of the links.
         written: Receives a note with the number of merged links.
     """
-    kept = _get_kept(sections)
+    kept = _get_kept(sections) | _list_followed(structure.robot, bodies)
     exclusions = _get_exclusions(sections.get("contact"))
     sites = UniqueNames(tuple(site.get("name", "") for site in sections["worldbody"].iter("site")))
     owner: dict[str, str] = {}
@@ -109,6 +111,18 @@ def _get_kept(sections: Mapping[str, etree._Element]) -> set[str]:
         if site.get("name") in measured and body is not None:
             names.add(body.get("name", ""))
     return names
+
+
+def _list_followed(robot: Robot, bodies: Bodies) -> set[str]:
+    """Return the names of the bodies whose frame or mass a camera or light of an MJCF follows."""
+    following = {(one.tag, one.name) for one in list_native(robot)
+                 if one.attributes.get("mode", "fixed") != "fixed"}  # fmt: skip
+    return {
+        body.get("name", "")
+        for body in bodies.values()
+        for part in body.iterchildren("camera", "light")
+        if (part.tag, part.get("name")) in following
+    }
 
 
 def _get_exclusions(contact: etree._Element | None) -> dict[str, set[str]]:

@@ -56,7 +56,7 @@ def _turn_to_start(body: etree._Element, joint: Joint, position: float) -> None:
     """Place a body where its joint has a position [rad or m], which becomes the joint's start."""
     pose = read_pose(body) @ compute_motion(joint, position)
     for attribute in ("pos", "quat"):
-        body.attrib.pop(attribute, None)
+        body.attrib.pop(attribute, "")
     set_pose(body, pose)
     for element in body.iterchildren("joint"):
         element.set("ref", number_text(position))
@@ -74,7 +74,7 @@ def _move_frame(body: etree._Element, anchor: Vector) -> None:
 
 def _shift(element: etree._Element, by: Vector) -> None:
     position = add(read_position(element.get("pos")), by)
-    element.attrib.pop("pos", None)
+    element.attrib.pop("pos", "")
     if any(position) or element.tag == "inertial":  # whose position is required
         element.set("pos", format_pose_text(position))
 
