@@ -49,6 +49,7 @@ def _set(row: str, path: str, name: str, value: str) -> Planted:
 
 CHANGES = (
     _in("tendon", "fixed tendon", TENDON),
+    _in("tendon", "armature of a tendon", TENDON.replace("name", "armature='0.5' name")),
     _in("tendon", "spatial tendon with limit, spring and damping", SPATIAL),
     _on_tendon("motor of a tendon", "actuator", "<motor name='mt' tendon='t' gear='3'/>"),
     _on_tendon("unnamed motor of a tendon", "actuator", "<motor tendon='t' gear='3'/>"),
@@ -77,6 +78,7 @@ CHANGES = (
     _in("contact", "exclusion", "<exclude body1='b' body2='d'/>"),
     _in("sensor", "clock", "<clock name='time'/>"),
     _in("sensor", "gyro", "<gyro name='g' site='sb' noise='0.1'/>"),
+    _in("sensor", "touch", "<touch name='to' site='sb'/>"),
     _in("sensor", "joint sensor", "<jointpos name='jp' joint='jb'/>"),
     _in("sensor", "cutoff of a sensor", "<jointvel name='jv' joint='jb' cutoff='4'/>"),
     _in("sensor", "actuator sensor", "<actuatorfrc name='af' actuator='m'/>"),
@@ -123,6 +125,9 @@ CHANGES = (
     _set("spring frequency", _JOINT, "springdamper", "0.2 1"),
     _set("armature", _JOINT, "armature", "0.2"),
     _set("force limit of a joint", _JOINT, "actuatorfrcrange", "-2 3"),
+    Planted("motor beside one of a site", "force range", both(
+            put("//motor[@name='m']", "ctrlrange", "-1 1"),
+            add("/mujoco/actuator", "<motor name='ms' site='sb' gear='0 0 1 0 0 0'/>"))),
     _set("size of a site", "//site[@name='sb']", "size", "0.05"),
     _set("color of a site", "//site[@name='sb']", "rgba", "1 0 0 1"),
     _set("sleep policy", "//body[@name='a']", "sleep", "never"),

@@ -159,3 +159,15 @@ def test_simulate_says_that_a_loop_stays_open(urdftool, write):
     (warning,) = [line for line in result.err.splitlines() if "stays open" in line]
     line = text[: text.index('<joint name="loop"')].count("\n") + 1
     assert warning.startswith(f"{path}:{line}:1: warning: closed loop 'loop' between links")
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.library("pybullet")
+def test_simulate_says_which_options_of_an_mjcf_it_replaces(urdftool, write):
+    text = (
+        '<mujoco><option timestep="0.05"><flag contact="disable"/></option><worldbody><body '
+        'name="b"><freejoint/><geom type="box" size=".1 .1 .1"/></body></worldbody></mujoco>'
+    )
+    path = write("m.xml", text)
+    result = urdftool("simulate", path, "--engine", "pybullet", "--duration", "0.1")
+    assert "not simulated: timestep of <option>, flag contact" in result.err

@@ -96,3 +96,11 @@ def test_a_color_that_is_gone_is_a_difference(tmp_path: Path, robot: dict[str, s
     back = urdftool.load(next((tmp_path / "usd").glob("r.*")))
     agreement = urdftool.verify(one, back, only=["colors"])
     assert not agreement.is_equal
+
+
+@pytest.mark.parametrize(("name", "needs"), [("mjcf", "mujoco"), ("usd", "pxr"), ("sdf", "lxml")])
+def test_the_first_definition_of_a_name_is_proved(tmp_path: Path, name: str, needs: str) -> None:
+    pytest.importorskip(needs)
+    robot = load(tmp_path, top=RED_PAINT, material=BLUE_PAINT)
+    result = getattr(urdftool, f"export_{name}")(robot, tmp_path / name, verify=True)
+    assert [one.verdict for one in result.checks if one.name == "colors"] == ["equal"]

@@ -163,6 +163,23 @@ def test_the_swept_joint_that_hits_is_named(urdftool, write):
     assert "limits of joint 'j' are -1 to 1" in result.out
 
 
+def test_a_held_round_part_above_the_ground_does_not_shake_the_robot(urdftool, write):
+    part = '<origin xyz="0.1 0 0" rpy="0 1.5708 0"/>'
+    text = (
+        '<robot name="r"><link name="b"><inertial><mass value="8"/><inertia ixx="0.03" iyy="0.1" '
+        'izz="0.13" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>'
+        '<box size="0.4 0.2 0.1"/></geometry></collision></link><link name="l"><inertial>'
+        '<origin xyz="0.1 0 0"/><mass value="0.285"/><inertia ixx="0.0001" iyy="0.001" izz="0.001" '
+        f'ixy="0" ixz="0" iyz="0"/></inertial><collision>{part}<geometry>'
+        '<cylinder radius="0.02" length="0.2"/></geometry></collision></link>'
+        '<joint name="j" type="revolute"><origin xyz="0.2 0 0"/><parent link="b"/>'
+        '<child link="l"/><axis xyz="0 1 0"/><limit lower="-3" upper="3" effort="100" '
+        'velocity="100"/></joint></robot>'
+    )
+    result = urdftool("simulate", write("r.urdf", text), "--engine", "pybullet")
+    assert result.out.startswith("r: stands\n")
+
+
 def test_an_arm_that_tips_over_is_said_to_be_bolted_down_usually(urdftool, write):
     part = inertial(1, 0.0017, 0.0017, 0.0017)
     shape = "<collision><geometry><box size='.1 .1 .1'/></geometry></collision>"

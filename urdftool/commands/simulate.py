@@ -75,7 +75,6 @@ def command(
     from .load_tolerant import load_tolerant
     from .simulate_control import (
         apply_controllers,
-        report_open_loops,
         report_start,
         take_robot_of_scene,
     )
@@ -122,7 +121,6 @@ def command(
         model = load_tolerant(console, paths[0], arguments, package, package_path)
         model = take_robot_of_scene(console, model)
         set_cache_folder(model, cache)
-        report_open_loops(console, model)
         settings = apply_controllers(console, settings, model, controllers, strict=strict)
         settings = report_start(console, model, settings)
         return simulate_one(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from ..report.counted import format_count
 
 if TYPE_CHECKING:
     from ..model.elements import Robot
@@ -72,7 +73,9 @@ def take_robot_of_scene(console: Console, robot: Robot) -> Robot:
     """
     from ..simulation.scene import take_robot
 
+    report_replaced(console, robot)
     part, left_out = take_robot(robot)
+    report_open_loops(console, part)
     if left_out:
         shown = ", ".join(left_out[:_MOST])
         more = f" and {len(left_out) - _MOST} more" if len(left_out) > _MOST else ""
@@ -81,6 +84,32 @@ def take_robot_of_scene(console: Console, robot: Robot) -> Robot:
             "simulation has one robot and its own ground"
         )
     return part
+
+
+def report_replaced(console: Console, robot: Robot) -> None:
+    """Print what an MJCF sets that the simulation has of its own: options, drives, constraints.
+
+    Args:
+        console: Output for notes.
+        robot: Robot; one of another format has none of them.
+    """
+    names = []
+    for section in _REPLACED:
+        elements = [element for element in robot.native if element.section == section]
+        if section == "option":
+            names += [f"{n} of <option>" for e in elements for n in e.attributes]
+            names += [f"flag {n}" for e in elements for c in e.children for n in c.attributes]
+        elif elements:
+            names.append(format_count(len(elements), f"<{section}> element"))
+    if names:
+        console.print_note(
+            f"{robot.place}: note: the simulation has its own gravity, solver, motors and ground; "
+            f"not simulated: {', '.join(names)}"
+        )
+
+
+_REPLACED = ("option", "actuator", "tendon", "equality", "contact")
+"""Sections of MJCF that affect motion and that the simulation replaces or leaves out."""
 
 
 def report_start(console: Console, robot: Robot, settings: Settings) -> Settings:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from .elements import Link, Material, Robot, Visual
 from .gazebo_colors import COLORS
 from .settings import get_number
@@ -38,6 +40,20 @@ class Materials:
 def resolve_material(robot: Robot, own: Material | None) -> Material | None:
     """Return the material with the color or image of a visual; None if it has neither."""
     return robot.memo.get("materials", lambda: Materials(robot)).find_defined(own)
+
+
+def define_materials(robot: Robot) -> Robot:
+    """Return a robot whose visuals hold the color and image that their material's name defines."""
+
+    def define(visual: Visual) -> Visual:
+        own, defined = visual.material, resolve_material(robot, visual.material)
+        if own is None or defined is None or defined is own:
+            return visual
+        own = replace(own, color=defined.color, texture=defined.texture)
+        return replace(visual, material=own)
+
+    links = [replace(link, visuals=[define(v) for v in link.visuals]) for link in robot.links]
+    return replace(robot, links=links)
 
 
 def find_shown_material(robot: Robot, link: Link, visual: Visual) -> Material | None:

@@ -27,6 +27,8 @@ KEPT = (
     "contact pair",
     "clock",
     "gyro",
+    "touch",
+    "force limit of a joint",
     "frame sensor of a geom",
     "tuple",
     "velocities of a keyframe",
@@ -52,6 +54,27 @@ def test_additions_are_kept(tmp_path):
     assert list_differing_fields(plain, made) == []
     assert [check.name for check in made.checks if check.verdict == "differs"] == []
     assert made.losses == plain.losses
+
+
+GLOSS = "<asset><material name='mt' specular='0.3' emission='0.1'/></asset></mujoco>"
+CHECKED = (
+    (add("armature of a tendon"), "mass matrix"),
+    (add("motor beside one of a site"), "effort"),
+    (
+        add().replace('name="gd"', 'name="gd" material="mt"').replace("</mujoco>", GLOSS),
+        "materials",
+    ),
+)
+
+
+@pytest.mark.parametrize(("text", "row"), CHECKED, ids=[row for _, row in CHECKED])
+def test_what_the_engine_compiles_is_proved(tmp_path, text, row):
+    made = export_text(text, tmp_path)
+    [check] = [check for check in made.checks if check.name == row]
+    assert check.verdict == "equal"
+    for field in ("dof_M0", "jnt_actfrclimited", "jnt_actfrcrange", "mat_specular", "site_type"):
+        one, two = getattr(made.source, field), getattr(made.result, field)
+        assert two[: len(one)] == pytest.approx(one), field
 
 
 CLASSES = """<mujoco><default><position kp="7"/><default class="strong"><position kp="9"/>

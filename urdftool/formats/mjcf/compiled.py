@@ -283,7 +283,15 @@ class Compiled:
 
     def compute_mass_matrix(self, dofs: list[int]) -> Array:
         """Compute the mass matrix of some degrees of freedom, without armature."""
-        count = self.model.nv
+        count, tendons = self.model.nv, getattr(self.model, "tendon_armature", np.zeros(0))
+        if tendons.any():
+            armature = tendons.copy()
+            tendons[:] = 0.0
+            self.mujoco.mj_fwdPosition(self.model, self.data)
+            matrix = self.compute_mass_matrix(dofs)
+            tendons[:] = armature
+            self.mujoco.mj_fwdPosition(self.model, self.data)
+            return matrix
         full = np.zeros((count, count))
         for dof in range(count):  # the call for the whole matrix changed its form
             unit, column = np.zeros(count), np.zeros(count)

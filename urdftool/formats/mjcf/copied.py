@@ -66,7 +66,7 @@ def list_uncopied(robot: Robot, unread: Iterable[Finding]) -> Iterator[Finding]:
         for code in codes
     }
     if robot.format == "mjcf":
-        codes |= {"unread-setting", "unread-display"}
+        codes |= {"unread-setting", "unread-display", "unread-force-range"}
     yield from (finding for finding in unread if finding.code not in codes)
 
 

@@ -83,7 +83,7 @@ def _build_single(
     limits = get_bounds(joint)
     if limits is not None and limits[0] < limits[1] and all(map(math.isfinite, limits)):
         element.set("range", format_numbers_text(limits))
-    effort = get_effort(joint)
+    effort = get_effort(joint) if structure.robot.format != "mjcf" else None  # which is copied
     forces = [
         abs(one.gear) * max(map(abs, one.force_range))
         for one in structure.robot.joint_actuators

@@ -35,7 +35,8 @@ def put_mounted(robot: Robot, bodies: Bodies) -> None:
         if frame.kind == "body" or frame.name in there or frame.link not in bodies:
             continue
         site = _build_site(frame, {} if robot.format == "mjcf" else SITE)
-        covered = find_covered(touched[frame.name]) if frame.name in touched else None
+        is_planned = frame.name in touched and robot.format != "mjcf"  # whose sites are copied
+        covered = find_covered(touched[frame.name]) if is_planned else None
         if covered is not None:
             kind, size, _ = covered
             site.set("type", kind)

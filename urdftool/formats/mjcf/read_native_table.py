@@ -95,7 +95,7 @@ READ = {
 
 PARTS = {
     "body": (("mocap", "sleep", "user"), ()),
-    "joint": ((), ("group", "user")),
+    "joint": (("actuatorfrcrange", "actuatorfrclimited"), ("group", "user")),
     "freejoint": ((), ("group", "user")),
     "geom": ((), ()),
     "site": ((), ("group", "size", "type", "rgba", "user")),

@@ -9,7 +9,7 @@ difference.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from ...mechanics.reference import Array, Mechanics, get_origin_matrix
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import get_limits
 from ...model.load import read_again
+from ...model.materials import define_materials
 from ...model.mechanism import Closure
 from ...model.world import add_world
 from ..common.losses import DeclaredLosses, name_links
@@ -37,7 +38,7 @@ from .verify_fuse import fuse_check
 from .verify_home import check_home
 from .verify_looks import check_material
 from .verify_meshes import SourceMeshes
-from .verify_native import keep_native, select_native
+from .verify_native import keep_native, list_force_ranges, select_native
 from .verify_runs import check_runs
 from .verify_scene import check_scene
 from .write import write
@@ -139,6 +140,7 @@ def _make_expected(source: Robot, planned: Robot) -> Robot:
         source: The robot as its description defines it.
         planned: The robot that a second export writes.
     """
+    source = define_materials(source)
     kept = {one.name for one in planned.configurations}
     return replace(
         planned,
@@ -232,7 +234,8 @@ def _compare_compiled(
     turn = get_origin_matrix(None if base is None else base.origin)[:3, :3]
     yield from _compare_dynamics(mechanics, compiled, configurations, turn, declared)
     yield _check_centroid(mechanics, compiled, configurations, declared)
-    yield _check_efforts(expected, compiled, declared)
+    ranges = list_force_ranges(expected) if robot.format == "mjcf" else _list_efforts(expected)
+    yield _check_efforts(ranges, compiled, declared)
     yield check_defaults(compiled, list_copied(robot))
     yield check_home(
         expected,
@@ -248,22 +251,32 @@ def _compare_compiled(
         yield check_scene(expected, compiled, model.parent / name)
 
 
-def _check_efforts(robot: Robot, compiled: Compiled, declared: DeclaredLosses) -> Check:
+def _list_efforts(robot: Robot) -> dict[str, tuple[float, float]]:
+    """Return the bounds of force of the joints that no actuator bounds [N·m or N], by joint."""
+    ranged = {one.joint for one in robot.joint_actuators if one.force_range is not None}
+    return {
+        joint.name: (-abs(joint.limit.effort), abs(joint.limit.effort))
+        for joint in robot.joints
+        if joint.limit and joint.limit.effort and joint.name not in ranged and joint.has_axis
+    }
+
+
+def _check_efforts(
+    ranges: Mapping[str, tuple[float, float]], compiled: Compiled, declared: DeclaredLosses
+) -> Check:
     """Compare the bounds of force at the joints, which other bounds of an actuator may hide."""
     check = Check("effort", "bounds of the force at each joint", _EXACT, is_empty=True)
     model = compiled.model
-    ranged = {one.joint for one in robot.joint_actuators if one.force_range is not None}
-    for joint in robot.joints:
-        number = compiled.get_id("JOINT", joint.name)
-        effort = joint.limit.effort if joint.limit is not None else None
-        if number < 0 or not effort or joint.name in ranged or not joint.has_axis:
+    for joint, bounds in ranges.items():
+        number = compiled.get_id("JOINT", joint)
+        if number < 0:
             continue
-        off = math.inf
-        if model.jnt_actfrclimited[number]:
-            low, high = (float(bound) for bound in model.jnt_actfrcrange[number])
-            off = max(abs(low + abs(effort)), abs(high - abs(effort))) / max(abs(effort), 1.0)
-        known = declared.has_for(EFFORT, joint.name)
-        check.compare(off, f"effort of joint '{joint.name}'", known=known)
+        is_limited = math.isfinite(bounds[1])
+        off = 0.0 if model.jnt_actfrclimited[number] == is_limited else math.inf
+        if is_limited and not off:
+            size = max(1.0, *map(abs, bounds))
+            off = float(max(abs(model.jnt_actfrcrange[number] - bounds))) / size
+        check.compare(off, f"effort of joint '{joint}'", known=declared.has_for(EFFORT, joint))
     return check
 
 

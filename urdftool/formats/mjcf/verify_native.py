@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
@@ -20,6 +21,17 @@ def select_native(source: Robot, options: Options) -> list[NativeElement]:
     """Return the elements of a source that its export copies: all but replaced actuators."""
     copied = has_copied_actuators(source, options)
     return [e for e in list_native(source) if copied or e.section != "actuator"]
+
+
+def list_force_ranges(robot: Robot) -> dict[str, tuple[float, float]]:
+    """Return the bounds of force that an MJCF writes of its joints [N·m or N], by joint."""
+    ranges = {joint.name: (-math.inf, math.inf) for joint in robot.joints if joint.has_axis}
+    for one in robot.native:
+        if one.tag == "joint" and not one.section:
+            low, high = map(float, one.attributes.get("actuatorfrcrange", "0 0").split())
+            if low < high and one.attributes.get("actuatorfrclimited") != "false":
+                ranges[one.name] = low, high
+    return ranges
 
 
 def keep_native(expected: Robot, result: Robot) -> list[NativeElement]:

@@ -142,6 +142,8 @@ def is_lying(axes: Array, turn: Array) -> bool:
 def forget_contacts(p: Any, robot: int, plane: int, links: Sequence[int]) -> None:
     """Clear the contact points of links with the plane.
 
+    Links without one are left alone: to clear them disturbs the contacts of the other links.
+
     Args:
         p: PyBullet.
         robot: PyBullet's index of the robot.
@@ -149,5 +151,7 @@ def forget_contacts(p: Any, robot: int, plane: int, links: Sequence[int]) -> Non
         links: PyBullet's indices of the links.
     """
     for link in links:
+        if not p.getContactPoints(robot, plane, link, -1):
+            continue
         p.setCollisionFilterPair(robot, plane, link, -1, 0)
         p.setCollisionFilterPair(robot, plane, link, -1, 1)
