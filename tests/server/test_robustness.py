@@ -53,6 +53,20 @@ def test_a_process_ends_when_its_answers_are_not_read():
     assert "left more than 1 MiB of answers unread" in process.stderr.read()
 
 
+def test_a_message_that_is_not_json_is_one_line_and_the_server_goes_on():
+    sent = [b"x{\x1b", b'{"jsonrpc": "2.0", "id": 1, "method": "shutdown"}']
+    done = subprocess.run(
+        [sys.executable, "-m", "urdftool", "server"],
+        input=b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in sent),
+        capture_output=True,
+        timeout=60,
+    )
+    assert done.returncode == 0
+    assert b'"id": 1' in done.stdout.replace(b'"id":1', b'"id": 1')
+    (line,) = done.stderr.decode().splitlines()
+    assert line.startswith("urdftool: Unable to handle message: JSONDecodeError")
+
+
 def test_a_large_document_is_only_parsed(tmp_path, monkeypatch):
     for module in ("knowledge", "checks"):
         monkeypatch.setattr(f"urdftool.server.{module}.MOST_BYTES", 100)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import logging
 import os
 from contextlib import closing
 from pathlib import Path
@@ -57,12 +58,30 @@ def command(
         select or None,
         ignore,
     )
+    if not console.debug:
+        log = logging.getLogger("pygls")
+        log.addHandler(_Log(console, logging.WARNING))
+        log.propagate = False
     answers = AnswerStream(os.dup(1))
     os.dup2(2, 1)  # what a library prints is not part of the protocol
     with closing(answers), _Questions(io.FileIO(os.dup(0))) as questions:
         questions.answers = answers
         serve(settings, questions, answers)
     return 0
+
+
+class _Log(logging.Handler):
+    """Log of the library, of which an editor shows each line: errors without their traceback."""
+
+    def __init__(self, console: Console, level: int) -> None:
+        super().__init__(level)
+        self._console = console
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print a record as one message."""
+        error = record.exc_info[1] if record.exc_info else None
+        why = "" if error is None else f": {type(error).__name__}: {error}"
+        self._console.print_message(f"{record.getMessage()}{why}")
 
 
 class _Questions(io.BufferedReader):
