@@ -70,6 +70,7 @@ def write_implicit_spring_damper(problem: Problem, context: FixContext) -> Propo
     effects={
         "gz": "keeps it in the SDF, where gz-physics does not read it for DART",
     },
+    pedantic="robots without a plugin for new Gazebo, whose settings may be for Classic",
 )
 def no_effect_in_gz(
     robot: Robot, targets: frozenset[str], guessed: frozenset[str]
@@ -80,7 +81,7 @@ def no_effect_in_gz(
     keeps them in the SDF, but gz-sim and its physics engines ignore them. Friction (mu1, mu2,
     fdir1) has an effect. Robots for Gazebo Classic are not reported, nor those that only a
     ``<gazebo>`` tag shows to be for new Gazebo. If the description has no plugin for new Gazebo,
-    the finding is an info, because the settings may be for Gazebo Classic.
+    the finding is an info, and off by default, because the settings may be for Gazebo Classic.
     """
     if "gazebo-classic" in targets or "gz" in guessed:
         return
@@ -103,6 +104,7 @@ def no_effect_in_gz(
             f"{words} {have} no effect in new Gazebo{times}; {remedy}",
             at=first,
             severity=None if own else INFO,
+            pedantic=not own,
             data={"elements": list(found), "count": count, "has_gz_plugin": own},
         )
 

@@ -387,6 +387,7 @@ _SLIGHT = 1e-3
         "robot_state_publisher": "prints the warning of kdl_parser",
         "mujoco": "welds the root to the world",
     },
+    pedantic="robots without a moving joint",
 )
 def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """The root link has an ``<inertial>``.
@@ -418,6 +419,7 @@ def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
             root,
             f"root link '{root.name}' has an inertia, which KDL does not support{remedy}",
             hint=hint,
+            pedantic=not robot.moving_joints,
         )
 
 
