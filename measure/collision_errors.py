@@ -20,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
+from scipy.ndimage import distance_transform_edt
 from scipy.spatial import ConvexHull, cKDTree
 
 from urdftool.collision.compute import Task, compute
@@ -40,6 +41,9 @@ source."""
 CELL = 0.25
 """Edge of a cell of which only the farthest sample is tried, in radii; chosen, no source."""
 
+GRID = 5
+"""Cells of the grid of bounds a radius; chosen, no source: it changes the time, not the result."""
+
 
 @dataclass(frozen=True)
 class Dense:
@@ -58,11 +62,38 @@ class Dense:
         """Return the search structure of the samples."""
         return cKDTree(self.points)
 
+    @cached_property
+    def bounds(self) -> tuple[Array, Array, float]:
+        """Return a grid of distances of cells from cells with samples [m], its corner and edge.
+
+        The distance of a point from the samples differs by at most sqrt(3) edges from that of its
+        cell: both are half a diagonal or less from the middles of their cells.
+        """
+        edge = self.radius / GRID
+        low = self.points.min(axis=0) - 2.5 * self.radius
+        shape = np.ceil((self.points.max(axis=0) + 2.5 * self.radius - low) / edge).astype(int)
+        empty = np.ones(shape, dtype=bool)
+        empty[tuple(((self.points - low) / edge).astype(int).T)] = False
+        return distance_transform_edt(empty, sampling=edge), low, edge
+
+    def measure_room(self, points: Array) -> Array:
+        """Measure distances from the samples [m]: exact near ``CLEAR`` radii, else a lower bound.
+
+        Points outside of the grid are as far as the nearest cell of it, or farther.
+        """
+        grid, low, edge = self.bounds
+        index = np.clip(((points - low) / edge).astype(int), 0, np.array(grid.shape) - 1)
+        about, slack = grid[tuple(index.T)], 3**0.5 * edge
+        room = np.maximum(about - slack, 0)
+        near = np.abs(about - CLEAR * self.radius) <= slack
+        room[near] = self.tree.query(points[near])[0]
+        return np.asarray(room)
+
     def find_touched(self, points: Array) -> npt.NDArray[np.bool_]:
         """Tell which points a ball touches that leaves along a straight line."""
         found = np.zeros(len(points), dtype=bool)
         centers = points[:, None] + self.radius * spread_directions(DIRECTIONS)
-        room = self.tree.query(centers.reshape(-1, 3))[0].reshape(centers.shape[:2])
+        room = self.measure_room(centers.reshape(-1, 3)).reshape(centers.shape[:2])
         for rank in range(4):  # the directions with most room
             best = np.argsort(-room, axis=1)[:, rank]
             index = np.arange(len(points))
@@ -80,7 +111,7 @@ class Dense:
                 gone = ((at < low) | (at > high)).any(axis=1)
                 left[todo[gone]] = True
                 todo, at = todo[~gone], at[~gone]
-                room = self.tree.query(at)[0] if len(at) else np.zeros(0)
+                room = self.measure_room(at)
                 free = room >= CLEAR * self.radius
                 todo, at = todo[free], at[free]
                 step = np.maximum(room[free] - CLEAR * self.radius, self.radius / 10)

@@ -1,10 +1,11 @@
-"""Step every robot as exported to MJCF without options: ``python -m measure.standing``.
+"""Step robots as exported to MJCF without options: ``python -m measure.standing [URDF...]``.
 
-Robots of example-robot-data and pybullet_data are exported as ``urdftool export mjcf`` does, and
-stepped in MuJoCo from the key ``home`` for 2 s, at the step that the model has and at 5 ms. A line
-for each robot says what is wrong; the last lines count. The program shares no code with the row
-``runs`` of the export's proof. ``--simulate`` also runs ``urdftool simulate`` in MuJoCo, and counts
-the robots of which both say that they stand, or that they do not.
+Without arguments, all robots of example-robot-data and pybullet_data are exported as
+``urdftool export mjcf`` does, and stepped in MuJoCo from the key ``home`` for 2 s, at the step that
+the model has and at 5 ms. A line for each robot says what is wrong; the last lines count. The
+program shares no code with the row ``runs`` of the export's proof. ``--simulate`` also runs
+``urdftool simulate`` in MuJoCo, and counts the robots of which both say that they stand, or that
+they do not.
 """
 
 from __future__ import annotations
@@ -138,6 +139,7 @@ def _run(mujoco: Any, model: Any, outcome: Outcome) -> Any:
 def main(arguments: list[str]) -> int:
     """Print what is wrong with each robot, and the counts."""
     parser = argparse.ArgumentParser(prog="python -m measure.standing", description=__doc__)
+    parser.add_argument("robots", nargs="*", type=Path, help="Descriptions; default: all.")
     parser.add_argument("--only", default="", metavar="WORD", help="Part of the path of a robot.")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="Worker processes.")
     parser.add_argument("--actuators", help="As export mjcf has it.")
@@ -145,7 +147,8 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--part", default="1/1", metavar="K/N", help="The K-th of N parts.")
     given = parser.parse_args(arguments)
     choices = {"actuators": given.actuators} if given.actuators else {}
-    paths = [path for path in (*example_robots(), *bullet_robots()) if given.only in str(path)]
+    every = given.robots or [*example_robots(), *bullet_robots()]
+    paths = [path for path in every if given.only in str(path)]
     part, parts = map(int, given.part.split("/"))
     paths = paths[part - 1 :: parts]
     work = partial(try_robot, choices=choices, simulates=given.simulate)

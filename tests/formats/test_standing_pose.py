@@ -219,6 +219,15 @@ def test_a_robot_on_two_points_is_reported(write, foot, outside):
     for loss in losses:
         assert loss.data["margin"] == pytest.approx(-0.007, abs=0.01)
         assert "'l_foot', 'r_foot'" in loss.message
+        assert "the robot falls" in loss.message
+
+
+def test_a_robot_that_a_small_tilt_tips_over_is_reported(write, urdftool, tmp_path):
+    """The center of mass is 1.01 m above the sole, and the half width of the foot is 20 mm."""
+    foot = collide('box size="0.04 0.04 0.02"', "0 0 -1")
+    path = write("r.urdf", robot(body("a", 1, foot)))
+    result = urdftool("export", "mjcf", path, "-o", tmp_path / "out", "--base", "free")
+    assert "a tilt of 1.1° tips the robot over" in result.err
 
 
 def test_a_robot_that_lies_on_its_trunk_gets_up(write):

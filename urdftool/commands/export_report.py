@@ -144,7 +144,7 @@ def report_written(
     """
     from ..compare.check import is_faithful
     from ..diagnostic import Severity
-    from ..formats.common.loss_report import format_lines, merge_instances
+    from ..formats.common.loss_report import format_lines, keep_largest, merge_instances
 
     shown = [f for f in written.losses if f.severity > Severity.INFO or console.verbosity > 0]
     hidden = len(merge_instances(written.losses)) - len(merge_instances(shown))
@@ -154,7 +154,7 @@ def report_written(
         text = to_json(output, written.files, written.losses, checks, not_compared, not_read)
         click.echo(text, nl=False)
     else:
-        for line in format_lines(shown):
+        for line in format_lines(shown if console.verbosity > 0 else keep_largest(shown)):
             console.print_note(line)
         if checks:
             from ..report.exports import format_check_table

@@ -46,8 +46,17 @@ SENSOR = '<gazebo reference="j"><sensor name="eye" type="force_torque"/></gazebo
 """A sensor with the name of a merged link, whose site gets another name."""
 
 
+NEAR = (
+    link("near", INERTIAL),
+    joint("n", "upper", "near", "fixed", '<origin xyz="1 0 0" rpy="0 0 1e-7"/>'),
+)
+"""A link whose turn is below that which MuJoCo's compiler rounds away in a site, not in a body."""
+
+
 @pytest.mark.library("mujoco")
-@pytest.mark.parametrize(("base", "more"), [("fixed", ()), ("free", ()), ("free", (SENSOR,))])
+@pytest.mark.parametrize(
+    ("base", "more"), [("fixed", ()), ("free", ()), ("free", (SENSOR,)), ("fixed", NEAR)]
+)
 def test_a_merged_model_is_the_same_robot(write, base, more):
     found, options = load(write("r.urdf", arm(*more))), Options(fuse=True, base=base)
     checks = verify_copy(found, options, write_mjcf(found, options))

@@ -214,6 +214,18 @@ def test_hull_is_said_where_it_is_larger(write, mesh):
     assert "lossy-nonconvex" not in rules(written)
 
 
+@pytest.mark.parametrize(("count", "lines"), [(3, 3), (4, 1)])
+def test_hulls_of_many_meshes_are_one_warning(urdftool, write, mesh, tmp_path, count, lines):
+    pytest.importorskip("scipy")
+    shapes = [shape("collision", mesh("two_cubes.stl", f"{n}.stl")) for n in range(count)]
+    path = write("r.urdf", robot(link("a", "".join(shapes))))
+    words = "export", "mjcf", path, "-o", tmp_path / "out"
+    result = urdftool(*words)
+    assert result.err.count("[lossy-nonconvex]") == lines
+    assert ("(the largest of 4; -v shows all)" in result.err) == (lines == 1)
+    assert urdftool("-v", *words).err.count("[lossy-nonconvex]") == count
+
+
 CUBE = (
     np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float),
     np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]),

@@ -209,6 +209,13 @@ def test_what_the_model_lacks_is_reported_once_each(mechanism):
     assert (tendon.name, tendon.place.line) == ("cable", line_of('name="cable"', MECHANISM))
 
 
+def test_a_turn_too_small_for_the_real_part_of_its_quaternion_is_read(tmp_path):
+    body = '<body name="b" quat="1 1e-8 2e-8 0"><geom size="1"/></body>'
+    turned = link_poses(read(model(tmp_path, f'<body name="a">{body}</body>')).robot)["b"].rotation
+    assert turned[2][1] == pytest.approx(2e-8)
+    assert turned[0][2] == pytest.approx(4e-8)
+
+
 def test_several_bodies_hang_on_the_world(tmp_path):
     bodies = """<geom type="plane" size="1 2 .1"/>
     <body name="cart"><joint name="rail" type="slide" axis="1 0 0"/><geom size=".1"/></body>

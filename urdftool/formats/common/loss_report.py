@@ -12,6 +12,12 @@ from ...finding import Finding
 _MOST_LINES = 100
 """Lines of one rule that are printed; chosen."""
 
+_RANKED = {"lossy-nonconvex": "hull_ratio"}
+"""Codes of losses that most meshes of a robot can have, and the value that ranks them."""
+
+_FEW = 3
+"""Ranked losses of one code that are printed one by one; chosen."""
+
 
 def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
     """Merge findings of one rule at one place, as those of the instances of a macro."""
@@ -44,6 +50,27 @@ def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
     for (label, code), count in counts.items():
         if count > _MOST_LINES:
             yield f"{count - _MOST_LINES} more of severity {label} [{code}]"
+
+
+def keep_largest(findings: Iterable[Finding]) -> list[Finding]:
+    """Replace many losses that differ in one value by that with the largest, which counts them."""
+    merged = merge_instances(findings)
+    counts = Counter(finding.code for finding in merged)
+    largest = {finding.code: finding for finding in sorted(merged, key=_get_rank)}
+    shown = []
+    for finding in merged:
+        count = counts[finding.code] if finding.code in _RANKED else 0
+        if count > _FEW and finding is largest[finding.code]:
+            text = f"{finding.message} (the largest of {count}; -v shows all)"
+            finding = replace(finding, message=text)
+        elif count > _FEW:
+            continue
+        shown.append(finding)
+    return shown
+
+
+def _get_rank(finding: Finding) -> float:
+    return float(finding.data.get(_RANKED.get(finding.code, ""), 0.0))
 
 
 def count_messages(findings: Iterable[Finding]) -> int:

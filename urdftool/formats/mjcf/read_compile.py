@@ -29,6 +29,9 @@ _LINE = re.compile(r"line\D{0,3}(\d+)", re.IGNORECASE)
 _NO_MEMORY = re.compile("allocate memory|unknown exception")
 """Errors of MuJoCo, and of its bindings for exceptions of C++, when memory is exhausted."""
 
+_NO_MEMORY_FOR_IMAGE = re.compile("PNG file.*memory allocation failed")
+"""Error of MuJoCo for an image, also if it names the line of the texture."""
+
 _ASSET = re.compile(r"asset-\d+[\w.]*")
 
 
@@ -101,10 +104,11 @@ def _compile(
             _keep_all(spec)
             model = spec.compile()
     except (ValueError, RuntimeError, mujoco.FatalError) as error:
-        if _NO_MEMORY.search(str(error)) and not _LINE.search(str(error)):
+        said = str(error)
+        line = _LINE.search(said)
+        if _NO_MEMORY_FOR_IMAGE.search(said) or (_NO_MEMORY.search(said) and not line):
             raise MemoryError from None
-        line = _LINE.search(str(error))
-        reason = " ".join(_LINE.sub("", str(error)).split()).strip(" ,")
+        reason = " ".join(_LINE.sub("", said).split()).strip(" ,")
         for name in set(_ASSET.findall(reason)):
             reason = reason.replace(name, paths.get(name, name))
         return Compiled("", {}, [], texts, {}, reason, int(line[1]) if line else 0)

@@ -60,7 +60,8 @@ def read_pose(row: Row, position: str = "pos", quaternion: str = "quat") -> Pose
     """Return the pose in a row."""
     w, x, y, z = row[quaternion]
     turned = rotation_from_quaternion((w, x, y, z))
-    return Pose(IDENTITY.rotation if w == 1.0 else turned, tuple(row[position]))
+    is_turned = any((x, y, z))  # w of a turn below 2e-8 rad is 1, too
+    return Pose(turned if is_turned else IDENTITY.rotation, tuple(row[position]))
 
 
 def read_settings(row: Row, settings: Iterable[Setting], written: Written) -> Settings:
