@@ -128,7 +128,6 @@ def test_both_frictions_of_a_block_are_one_finding(tmp_path):
         "mu2 of 'arm' is 50; rubber on concrete has about 1"
     ]
     assert said("<mu1>-1</mu1><mu2>50</mu2><kp>0</kp>") == [
-        "mu1 of 'arm' is -1; a friction cannot be below 0",
         "mu2 of 'arm' is 50; rubber on concrete has about 1",
         "kp of 'arm' is 0, so contacts do not support the link; the default is 1e12",
     ]

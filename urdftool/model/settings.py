@@ -12,6 +12,7 @@ element of SDF in a block, and both count before ``<contact>``. libsdformat 12.3
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
@@ -40,6 +41,7 @@ class Setting(NamedTuple):
         opposite: Tag in ``<gazebo>`` that sets a flag to its opposite.
         contact: Child of Bullet's ``<contact>`` of a link that sets it.
         lowest: Smallest value that readers accept; None for no bound.
+        range: Smallest and largest value that make physical sense; readers take others, too.
         mjcf: What MJCF has instead; empty for nothing.
         usd: What USD has instead; empty for nothing.
         also: A second SDF path with the value, which older readers use.
@@ -55,6 +57,7 @@ class Setting(NamedTuple):
     opposite: str = ""
     contact: str = ""
     lowest: float | None = None
+    range: tuple[float, float] = (-math.inf, math.inf)
     mjcf: str = ""
     usd: str = ""
     also: str = ""
@@ -65,28 +68,34 @@ _ODE = "surface/friction/ode/"
 _CONTACT = "surface/contact/ode/"
 _LIMIT = "physics/ode/limit/"
 _DAMPER = "physics/ode/cfm_damping"
+_POSITIVE = (0.0, math.inf)
+_PART = (0.0, 1.0)
 
 SURFACE = (
     Setting("friction", "number", "", _ODE + "mu", 1.0, ("mu1",), contact="lateral_friction",
-            lowest=0.0, mjcf="geom friction", usd="physics:dynamicFriction"),
+            lowest=0.0, range=_POSITIVE, mjcf="geom friction", usd="physics:dynamicFriction"),
     Setting("second_friction", "number", "", _ODE + "mu2", 1.0, ("mu2",), lowest=0.0,
-            contact="lateral_friction", mjcf="geom friction", usd="physics:dynamicFriction"),
+            range=_POSITIVE, contact="lateral_friction", mjcf="geom friction",
+            usd="physics:dynamicFriction"),
     Setting("friction_direction", "vector", "", _ODE + "fdir1", (0.0, 0.0, 0.0), ("fdir1",),
             note="in the frame of the collision"),
-    Setting("slip", "number", "", _ODE + "slip1", 0.0),
-    Setting("second_slip", "number", "", _ODE + "slip2", 0.0),
-    Setting("torsional_friction", "number", "", "surface/friction/torsional/coefficient", 1.0),
+    Setting("slip", "number", "", _ODE + "slip1", 0.0, range=_POSITIVE),
+    Setting("second_slip", "number", "", _ODE + "slip2", 0.0, range=_POSITIVE),
+    Setting("torsional_friction", "number", "", "surface/friction/torsional/coefficient", 1.0,
+            range=_POSITIVE),
     Setting("restitution", "number", "", "surface/bounce/restitution_coefficient", 0.0,
-            contact="restitution", usd="physics:restitution"),
+            range=_PART, contact="restitution", usd="physics:restitution"),
     Setting("bounce_velocity", "number", "m/s", "surface/bounce/threshold", 100000.0),
     Setting("contact_stiffness", "number", "N/m", _CONTACT + "kp", 1e12, ("kp",),
-            contact="stiffness"),
+            range=_POSITIVE, contact="stiffness"),
     Setting("contact_damping", "number", "N·s/m", _CONTACT + "kd", 1.0, ("kd",),
-            contact="damping"),
-    Setting("correction_velocity", "number", "m/s", _CONTACT + "max_vel", 0.01, ("maxVel",)),
-    Setting("contact_depth", "number", "m", _CONTACT + "min_depth", 0.0, ("minDepth",)),
-    Setting("contact_cfm", "number", "", _CONTACT + "soft_cfm", 0.0),
-    Setting("contact_erp", "number", "", _CONTACT + "soft_erp", 0.2),
+            range=_POSITIVE, contact="damping"),
+    Setting("correction_velocity", "number", "m/s", _CONTACT + "max_vel", 0.01, ("maxVel",),
+            range=_POSITIVE),
+    Setting("contact_depth", "number", "m", _CONTACT + "min_depth", 0.0, ("minDepth",),
+            range=_POSITIVE),
+    Setting("contact_cfm", "number", "", _CONTACT + "soft_cfm", 0.0, range=_POSITIVE),
+    Setting("contact_erp", "number", "", _CONTACT + "soft_erp", 0.2, range=_PART),
     Setting("collide_bitmask", "count", "", "surface/contact/collide_bitmask", 65535.0),
     Setting("category_bitmask", "count", "", "surface/contact/category_bitmask", 65535.0),
     Setting("without_contact", "flag", "", "surface/contact/collide_without_contact", False),
@@ -102,8 +111,10 @@ OF_LINKS = (
     Setting("gravity", "flag", "", "gravity", True, opposite="turnGravityOff",
             mjcf="body gravcomp"),
     Setting("self_collide", "flag", "", "self_collide", False, ("selfCollide",)),
-    Setting("linear_decay", "number", "", "velocity_decay/linear", 0.0, ("dampingFactor",)),
-    Setting("angular_decay", "number", "", "velocity_decay/angular", 0.0, ("dampingFactor",)),
+    Setting("linear_decay", "number", "", "velocity_decay/linear", 0.0, ("dampingFactor",),
+            range=_POSITIVE),
+    Setting("angular_decay", "number", "", "velocity_decay/angular", 0.0, ("dampingFactor",),
+            range=_POSITIVE),
     Setting("wind", "flag", "", "enable_wind", False),
     Setting("kinematic", "flag", "", "kinematic", False),
     Setting("must_be_base_link", "flag", "", "must_be_base_link", False),
@@ -112,14 +123,17 @@ OF_LINKS = (
 
 OF_JOINTS = (
     Setting("spring_stiffness", "number", "N·m/rad or N/m", "axis/dynamics/spring_stiffness", 0.0,
-            ("springStiffness",), mjcf="joint stiffness"),
+            ("springStiffness",), range=_POSITIVE, mjcf="joint stiffness"),
     Setting("spring_reference", "number", "rad or m", "axis/dynamics/spring_reference", 0.0,
             ("springReference",), mjcf="joint springref"),
-    Setting("limit_stiffness", "number", "N·m/rad or N/m", "axis/limit/stiffness", 1e8),
-    Setting("limit_dissipation", "number", "N·m·s/rad or N·s/m", "axis/limit/dissipation", 1.0),
-    Setting("stop_cfm", "number", "", _LIMIT + "cfm", 0.0, ("stopCfm",)),
-    Setting("stop_erp", "number", "", _LIMIT + "erp", 0.2, ("stopErp",)),
-    Setting("fudge_factor", "number", "", "physics/ode/fudge_factor", 0.0, ("fudgeFactor",)),
+    Setting("limit_stiffness", "number", "N·m/rad or N/m", "axis/limit/stiffness", 1e8,
+            range=_POSITIVE),
+    Setting("limit_dissipation", "number", "N·m·s/rad or N·s/m", "axis/limit/dissipation", 1.0,
+            range=_POSITIVE),
+    Setting("stop_cfm", "number", "", _LIMIT + "cfm", 0.0, ("stopCfm",), range=_POSITIVE),
+    Setting("stop_erp", "number", "", _LIMIT + "erp", 0.2, ("stopErp",), range=_PART),
+    Setting("fudge_factor", "number", "", "physics/ode/fudge_factor", 0.0, ("fudgeFactor",),
+            range=_PART),
     Setting("implicit_spring_damper", "flag", "", "physics/ode/implicit_spring_damper", False,
             ("implicitSpringDamper", "cfmDamping"), also=_DAMPER),
     Setting("provide_feedback", "flag", "", "physics/provide_feedback", False,

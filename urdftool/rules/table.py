@@ -242,6 +242,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "references": ("dangling-reference", "misplaced-extension", "conflicting-references"),
         "vocabulary": ("unknown-extension",),
         "values": ("bad-extension-number", "half-friction", "implausible-friction"),
+        "setting_values": ("setting-out-of-range",),
         "settings": (
             "deprecated-cfm-damping",
             "no-effect-in-gz",
@@ -419,6 +420,7 @@ APPLIES_TO: dict[str, tuple[str, ...]] = {
     "gazebo.references": ("gazebo",),
     "gazebo.vocabulary": ("gazebo",),
     "gazebo.values": ("gazebo",),
+    "gazebo.setting_values": ("gazebo", "contact"),
     "gazebo.lumping": ("gazebo",),
     "gazebo.sensors": ("gazebo",),
     "gazebo.sensor_values": ("gazebo",),

@@ -53,6 +53,8 @@ def link(body, number):
         for s in pybullet.getCollisionShapeData(body, number)
     ]
     inertia = {"mass": float(f"{found[0]:.6g}"), "principal": numbers(found[2])}
+    if found[5] or found[8:10] != (-1, -1):
+        inertia["restitution, damping, stiffness"] = numbers((found[5], *found[8:10]))
     return {**inertia, "friction": float(f"{found[1]:.6g}"), "visuals": [], "collisions": shapes}
 
 

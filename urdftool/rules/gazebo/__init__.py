@@ -5,6 +5,7 @@ FILES = (
     "references",
     "vocabulary",
     "values",
+    "setting_values",
     "settings",
     "lumping",
     "model",

@@ -193,8 +193,6 @@ def write_other_friction(problem: Problem, context: FixContext) -> Proposal | No
 
 
 _MU = ("mu1", "mu2")
-_ANY = "gz, gazebo-classic"
-_NEGATIVE = "gz, gazebo-classic (a negative friction)"
 _HOLDS = re.compile(
     r"finger|grip|jaw|(^|_)pad(_|\d|$)|thumb|hand|wheel|foot|feet|sole|track|tire", re.I
 )
@@ -215,23 +213,20 @@ def _is_gripping(robot: Robot, name: str | None) -> bool:
 @rule(
     INFO,
     default=False,
-    effects={
-        _ANY: "take it as written",
-        _NEGATIVE: "reject the model (sdformat 12.3: Error 9)",
-    },
+    effects={"gz, gazebo-classic": "take it as written"},
     group="robot",
 )
 def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Problem]:
     """A friction coefficient or contact stiffness is implausible.
 
-    Rubber on concrete has a friction coefficient of 1. A negative coefficient is an error; one
-    above ``highest`` is usually a wrong number. A contact with a stiffness ``kp`` of 0 does not
-    support the link. Both coefficients of a block are one finding. Fingers, wheels and feet with
-    the same high coefficient in both directions are not reported.
+    Rubber on concrete has a friction coefficient of 1. One above ``highest`` is usually a wrong
+    number. A contact with a stiffness ``kp`` of 0 does not support the link. Both coefficients of a
+    block are one finding. Fingers, wheels and feet with the same high coefficient in both
+    directions are not reported.
     """
     reported: set[tuple[str, float]] = set()
     for block in robot.gazebo:
-        found: dict[tuple[bool, bool], tuple[str, list[Element], list[str]]] = {}
+        found: dict[bool, tuple[str, list[Element], list[str]]] = {}
         meant = _is_gripping(robot, block.reference) and _is_alike(block)
         for child in block.element.children:
             if child.tag not in ("mu1", "mu2", "kp"):
@@ -243,27 +238,21 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
                 continue
             reported.add((child.tag, value))
             effect = ""
-            if value < 0:
-                why = (
-                    "it cannot be below 0" if child.tag == "kp" else "a friction cannot be below 0"
-                )
-            elif child.tag == "kp" and value == 0:
+            if child.tag == "kp" and value == 0:
                 effect, why = ", so contacts do not support the link", "the default is 1e12"
             elif child.tag != "kp" and value > highest:
                 why = "rubber on concrete has about 1"
             else:
                 continue
-            _, children, wrongs = found.setdefault((child.tag == "kp", value < 0), (why, [], []))
+            _, children, wrongs = found.setdefault(child.tag == "kp", (why, [], []))
             of = f" of '{block.reference}'" if block.reference and not children else ""
             wrong = f"{child.tag}{of} is {value:g}{effect}"
             children.append(child)
             wrongs.append(wrong)
-        for (_, is_negative), (why, children, wrongs) in found.items():
+        for why, children, wrongs in found.values():
             yield Problem(
                 block.element,
                 f"{' and '.join(wrongs)}; {why}",
                 at=children[0],
-                severity=ERROR if is_negative else None,
-                effects=(_NEGATIVE if is_negative and children[0].tag != "kp" else _ANY,),
                 alike=tuple(child.tag for child in children),
             )
