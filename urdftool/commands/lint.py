@@ -308,7 +308,7 @@ def _check_paths(
         shown = progress if scheduler is not None or len(files) >= WORTH_IT else None
         check_all = check or partial(check_files, scheduler=scheduler, on_progress=shown)
         checked = check_all(files, options, jobs)
-        reports = list(add_skipped_parts(checked, paths, belonging))
+        reports = list(add_skipped_parts(checked, paths, options, belonging))
     if transcript is not None:
         transcript.set_dependencies(reports, workspace.dependencies)
     skipped = [Report(path, skipped=reason) for path, reason in other.skipped.items()]

@@ -77,7 +77,7 @@ def fix_files(
         return _show(console, done, output)
     if diff:
         _report_count(console, "Would fix", done)
-        whole = add_skipped_parts(done.reports, output.paths)
+        whole = add_skipped_parts(done.reports, output.paths, options)
         failure = report(console, whole, settings, output)
         return failure if failure > 1 else int(bool(done.made) and not output.exit_zero)
     _report_count(console, "Fixed", done)
@@ -87,7 +87,7 @@ def fix_files(
         sys.stdout.flush()
         sys.stdout.buffer.write(done.after.get(STDIN, given))
         sys.stdout.buffer.flush()
-    whole = add_skipped_parts(done.reports, output.paths)
+    whole = add_skipped_parts(done.reports, output.paths, options)
     return max(report(console, whole, settings, output), code)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 ENDINGS = (".urdf", ".urdf.xacro")
 IGNORED = frozenset(("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"))
@@ -26,11 +26,20 @@ def find_descriptions(paths: Iterable[str]) -> list[str]:
     return list(found.values())
 
 
-def list_parts(paths: Iterable[str]) -> list[str]:
-    """Return the ``.xacro`` files below named folders that are not descriptions by their name."""
+def list_parts(paths: Iterable[str], belonging: Collection[str] = ()) -> list[str]:
+    """Return the ``.xacro`` files below named folders that are not descriptions by their name.
+
+    Args:
+        paths: Files and folders.
+        belonging: Resolved paths of files that are parts whatever their name.
+    """
     folders = [path for path in paths if os.path.isdir(path)]
     found = (path for folder in folders for path in list_files(folder, (".xacro",)))
-    return [path for path in dict.fromkeys(found) if not path.endswith(ENDINGS)]
+    return [
+        path
+        for path in dict.fromkeys(found)
+        if not path.endswith(ENDINGS) or os.path.realpath(path) in belonging
+    ]
 
 
 def explain_nothing_found(paths: Iterable[str]) -> str:

@@ -10,9 +10,13 @@ from ..finding import Finding
 from .fingerprint import get_fact
 from .outcome import Outcome, Report
 
+_UNREACHED = "unreached-typo"
+"""Rule whose finding another finding on the line replaces: a robot does expand it."""
+
 
 def merge(findings: Iterable[Finding]) -> list[Finding]:
     """Merge the findings of instances of one macro, keeping the order."""
+    findings = _drop_reached(list(findings))
     merged: dict[tuple[Any, ...], Finding] = {}
     copied: set[tuple[Any, ...]] = set()
     for finding in findings:
@@ -31,6 +35,18 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
             first.severity = max(first.severity, finding.severity)
             first.others += [(finding.name, place.calls), *finding.others]
     return list(merged.values())
+
+
+def _drop_reached(findings: list[Finding]) -> list[Finding]:
+    """Drop typos of unexpanded parts on lines on which an expanded robot has a finding."""
+    if all(finding.code != _UNREACHED for finding in findings):
+        return findings
+    lines = {_get_line(one) for one in findings if one.code != _UNREACHED}
+    return [one for one in findings if one.code != _UNREACHED or _get_line(one) not in lines]
+
+
+def _get_line(finding: Finding) -> tuple[str, int]:
+    return finding.location.file.path, finding.location.line
 
 
 def sort_findings(findings: Iterable[Finding]) -> list[Finding]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
 from fnmatch import fnmatch
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ from ..configuration import find_configuration
 from ..errors import ConfigError, SourceError
 from ..workspace import Workspace
 from .discover import list_parts
+from .options import Options
 from .outcome import Report
 
 if TYPE_CHECKING:
@@ -37,23 +39,51 @@ def explain_no_links(description: Description) -> str:
     return f"{what}, without a link; lint the robot that includes it"
 
 
+_STOPPED = "a part of a robot that was not expanded; only its source was checked"
+
+
 def add_skipped_parts(
-    reports: Iterable[Report], paths: Iterable[str], belonging: Collection[str] = ()
+    reports: Iterable[Report],
+    paths: Iterable[str],
+    options: Options,
+    belonging: Collection[str] = (),
 ) -> Iterator[Report]:
-    """Yield the reports, then a skipped report for each unread ``.xacro`` file of named folders.
+    """Yield the reports, then one for each ``.xacro`` file of named folders that no robot read.
+
+    The source of such a file is checked. A part of a robot that stopped before it has no report
+    unless its source has findings.
 
     Args:
         reports: Reports of descriptions.
         paths: Files and folders named by the user.
+        options: How the descriptions were checked.
         belonging: Resolved paths of files that a robot includes, which may have stopped earlier.
     """
-    read: set[str] = set(belonging)
+    read: set[str] = set()
     for report in reports:
         read.update(os.path.realpath(path) for path in (report.path, *report.files))
         yield report
-    for path in list_parts(paths):
-        if os.path.realpath(path) not in read:
-            yield Report(path, skipped=_explain_skipped(path))
+    for path in list_parts(paths, belonging):
+        real = os.path.realpath(path)
+        if real in read:
+            continue
+        source = _check_part(path, options)
+        if real not in belonging:
+            source.skipped = _explain_skipped(path)
+            yield source
+        elif source.findings:
+            source.skipped = _STOPPED
+            yield source
+
+
+def _check_part(path: str, options: Options) -> Report:
+    """Check the source of a file that no robot read, unless it is excluded."""
+    from .run import check_file
+
+    if _get_pattern(path, options.config, options.workspace) is not None:
+        return Report(path)
+    report = check_file(path, replace(options, expand=False, cache=None, fixes=False))
+    return replace(report, error=None, stopped="")
 
 
 def _explain_skipped(path: str) -> str:

@@ -42,6 +42,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "tags": ("nonstandard-xmlns", "unprefixed-xacro-tag"),
         "leftovers": ("unexpanded-expression",),
         "unreached_expressions": ("bad-substitution-command", "unclosed-expression"),
+        "unreached_typos": ("unreached-typo",),
         "expansion_warnings": (
             "shadowed-builtin",
             "unknown-xacro-attribute",

@@ -30,8 +30,9 @@ _FOR_LAUNCH = {
 def _find_matches(
     document: Document, description: Description, pattern: re.Pattern[str], quick: bytes
 ) -> Iterator[tuple[Element, re.Match[str], Place | Element]]:
-    """Yield the matches of a pattern in the attributes and texts of an expanded file."""
-    if description.expansion is None or not re.search(quick, document.file.data):
+    """Yield the matches of a pattern in the attributes and texts of a xacro file."""
+    is_plain = description.expansion is None and bool(description.document.root.tag)
+    if is_plain or not re.search(quick, document.file.data):
         return
     for element in document.root.walk():
         for name, value in element.attributes.items():
