@@ -31,7 +31,7 @@ def list_parts(paths: Iterable[str], belonging: Collection[str] = ()) -> list[st
 
     Args:
         paths: Files and folders.
-        belonging: Resolved paths of files that are parts whatever their name.
+        belonging: Resolved paths of files that are parts even if they are named as robots.
     """
     folders = [path for path in paths if os.path.isdir(path)]
     found = (path for folder in folders for path in list_files(folder, (".xacro",)))
