@@ -217,3 +217,14 @@ def test_included_files_are_found_where_they_are_installed_from(package, urdftoo
     lines = urdftool("lint", ".", "--list").out.splitlines()
     assert "  includes source/parts/head.xacro" in lines
     assert not any(line.startswith("source/parts/head.xacro") for line in lines)  # no robot
+
+
+def test_what_the_search_does_not_follow_is_in_the_last_line(package, urdftool, tmp_path):
+    elsewhere = tmp_path.parent / f"{tmp_path.name}-elsewhere"
+    elsewhere.mkdir()
+    (package / "linked").symlink_to(elsewhere)
+    (package / "own").symlink_to(package / "urdf")
+    (package / "a.launch.py").write_text('Command(["xacro ", choose(), "/two.xacro"])')
+    line = last(urdftool("lint", ".", *ONLY))
+    assert line.endswith("; computed paths not followed: a.launch.py:1; links not followed: linked")
+    assert "elsewhere, which are not followed: linked" in urdftool("lint", ".", "--list").err

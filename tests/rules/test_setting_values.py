@@ -6,6 +6,7 @@ import pytest
 
 from urdftool.api.lint import check
 from urdftool.model.settings import TABLES
+from urdftool.rules.gazebo.setting_values import get_range
 
 ROBOT = """<robot name="r"><link name="base"/>
 <link name="arm">{contact}
@@ -19,7 +20,7 @@ ROBOT = """<robot name="r"><link name="base"/>
 ROWS = [
     (row, name) for rows, name in zip(TABLES, ("arm", "arm", "turn"), strict=True) for row in rows
 ]
-BOUNDED = [(row, name) for row, name in ROWS if row.range != (-math.inf, math.inf)]
+BOUNDED = [(row, name) for row, name in ROWS if get_range(row) != (-math.inf, math.inf)]
 
 
 def _find(tmp_path, *, contact="", block="", name="arm"):
@@ -44,7 +45,7 @@ def _write_path(row, name, value):
 
 @pytest.mark.parametrize(("row", "name"), BOUNDED, ids=lambda value: getattr(value, "name", value))
 def test_each_setting_with_a_range_is_reported_outside_of_it(tmp_path, row, name):
-    least, most = row.range
+    least, most = get_range(row)
     severity = "warning" if row.lowest is None else "error"
     values = [least - 1, most + 1] if math.isfinite(most) else [least - 1]
     ways = [_write_path(row, name, "{}"), *(f"<{tag}>{{}}</{tag}>" for tag in row.tags)]

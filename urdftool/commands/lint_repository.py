@@ -105,26 +105,36 @@ def print_list(files: Sequence[str], found: Repository) -> None:
 
 
 def _print_unknown(found: Repository) -> None:
-    if found.unknown:
-        places = ", ".join(found.unknown[:_MOST_NAMES])
-        more = len(found.unknown) - _MOST_NAMES
-        places += f" and {more} more" if more > 0 else ""
-        click.echo(f"paths of descriptions that are computed, and not followed: {places}", err=True)
+    for what, places in (
+        ("paths of descriptions that are computed, and not followed", found.unknown),
+        ("links to folders elsewhere, which are not followed", found.links),
+    ):
+        if places:
+            click.echo(f"{what}: {_join_names(places)}", err=True)
+
+
+def _join_names(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
+    return f"{', '.join(names[:_MOST_NAMES])}{more}"
 
 
 def summarize_robots(found: Repository, options: Options, reports: Collection[Report]) -> str:
-    """Return ``checked 3 robots (4 variants), 12 files belong to them, 0 not checked``."""
+    """Return ``checked 3 robots (4 variants), 12 files belong to them, 0 not checked``.
+
+    Launch files that compute the path of a description, and links to folders elsewhere, follow.
+    """
     checked = [report.path for report in reports if report.checked]
     missing = [report.path for report in reports if report.not_checked or report.unexpanded]
     reals = {os.path.realpath(path) for path in checked}
     read = {os.path.realpath(path) for report in reports if report.checked for path in report.files}
     belonging = (read | {path for real in reals for path in found.list_belonging(real)}) - reals
     variants = sum(len(options.variants.get(real, ())) or 1 for real in reals)
-    names = ", ".join(missing[:_MOST_NAMES])
-    more = f" and {len(missing) - _MOST_NAMES} more" if len(missing) > _MOST_NAMES else ""
+    unknown, links = (_join_names(names) for names in (found.unknown, found.links))
     return (
         f"checked {format_count(len(checked), 'robot')} ({format_count(variants, 'variant')}), "
         f"{format_count(len(belonging), 'file')} {'belong' if len(belonging) != 1 else 'belongs'} "
         f"to {'it' if len(checked) == 1 else 'them'}, {len(missing)} not checked"
-        + (f": {names}{more}" if missing else "")
+        + (f": {_join_names(missing)}" if missing else "")
+        + (f"; computed paths not followed: {unknown}" if unknown else "")
+        + (f"; links not followed: {links}" if links else "")
     )

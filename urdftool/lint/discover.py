@@ -65,21 +65,42 @@ def _has_name(path: str) -> bool:
         return False
 
 
-def list_files(folder: str, endings: tuple[str, ...] = ENDINGS) -> Iterator[str]:
+def list_files(
+    folder: str, endings: tuple[str, ...] = ENDINGS, links: list[str] | None = None
+) -> Iterator[str]:
     """Yield the files below a folder by their ending.
 
     Hidden folders are skipped, those that builds of ROS ignore, and those in which CMake builds; so
     are devices, pipes, and links out of the project of the folder, which came with the files.
+
+    Args:
+        folder: The folder.
+        endings: Endings of the names.
+        links: List to which links to folders that are not below it are added.
     """
     for root, folders, files in os.walk(folder):
         if root != folder and _is_of_builds(files):
             folders.clear()
             continue
         folders[:] = sorted(name for name in folders if not name.startswith("."))
+        if links is not None:
+            links += _find_links(root, folders, folder)
         for name in sorted(files):
             path = os.path.normpath(os.path.join(root, name))
             if name.endswith(endings) and _is_own(path, folder):
                 yield path
+
+
+def _find_links(root: str, names: Iterable[str], folder: str) -> list[str]:
+    """Return the links to folders that are not below a folder, which a search does not follow."""
+    inside = os.path.realpath(folder)
+    paths = [os.path.normpath(os.path.join(root, name)) for name in names]
+    links = [path for path in paths if os.path.islink(path)]
+    return [link for link in links if not _is_below(os.path.realpath(link), inside)]
+
+
+def _is_below(path: str, folder: str) -> bool:
+    return path == folder or path.startswith(os.path.join(folder, ""))
 
 
 def _is_of_builds(files: Iterable[str]) -> bool:

@@ -37,6 +37,7 @@ class Repository:
             that includes them by a computed name can use them.
         paths: Path as found of each xacro and URDF file, by resolved path.
         unknown: Places of launch files and builds that compute the path of a description.
+        links: Links to folders elsewhere, which the search does not follow.
     """
 
     robots: dict[str, RobotFile] = field(default_factory=dict)
@@ -45,6 +46,7 @@ class Repository:
     parts: set[str] = field(default_factory=set)
     paths: dict[str, str] = field(default_factory=dict)
     unknown: list[str] = field(default_factory=list)
+    links: list[str] = field(default_factory=list)
 
     def list_files(self, robot: str) -> set[str]:
         """Return the resolved paths of a robot and of all that it includes."""

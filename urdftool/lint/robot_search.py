@@ -63,7 +63,7 @@ def find_robots(
     """
     search = _Search(Repository(), config, packages or {}, tuple(package_paths), workspace)
     for folder in folders:
-        for path in list_files(folder, (".urdf", ".xacro")):
+        for path in list_files(folder, (".urdf", ".xacro"), search.found.links):
             search.add_file(path)
     search.add_by_content()
     for folder in folders:

@@ -12,7 +12,6 @@ element of SDF in a block, and both count before ``<contact>``. libsdformat 12.3
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
@@ -41,7 +40,7 @@ class Setting(NamedTuple):
         opposite: Tag in ``<gazebo>`` that sets a flag to its opposite.
         contact: Child of Bullet's ``<contact>`` of a link that sets it.
         lowest: Smallest value that readers accept; None for no bound.
-        range: Smallest and largest value that make physical sense; readers take others, too.
+        range: Smallest and largest value that make sense, if readers take others, too.
         mjcf: What MJCF has instead; empty for nothing.
         usd: What USD has instead; empty for nothing.
         also: A second SDF path with the value, which older readers use.
@@ -57,7 +56,7 @@ class Setting(NamedTuple):
     opposite: str = ""
     contact: str = ""
     lowest: float | None = None
-    range: tuple[float, float] = (-math.inf, math.inf)
+    range: tuple[float, float] = (-float("inf"), float("inf"))
     mjcf: str = ""
     usd: str = ""
     also: str = ""
@@ -68,21 +67,18 @@ _ODE = "surface/friction/ode/"
 _CONTACT = "surface/contact/ode/"
 _LIMIT = "physics/ode/limit/"
 _DAMPER = "physics/ode/cfm_damping"
-_POSITIVE = (0.0, math.inf)
-_PART = (0.0, 1.0)
+_POSITIVE, _PART = (0.0, float("inf")), (0.0, 1.0)
 
 SURFACE = (
     Setting("friction", "number", "", _ODE + "mu", 1.0, ("mu1",), contact="lateral_friction",
-            lowest=0.0, range=_POSITIVE, mjcf="geom friction", usd="physics:dynamicFriction"),
+            lowest=0.0, mjcf="geom friction", usd="physics:dynamicFriction"),
     Setting("second_friction", "number", "", _ODE + "mu2", 1.0, ("mu2",), lowest=0.0,
-            range=_POSITIVE, contact="lateral_friction", mjcf="geom friction",
-            usd="physics:dynamicFriction"),
+            contact="lateral_friction", mjcf="geom friction", usd="physics:dynamicFriction"),
     Setting("friction_direction", "vector", "", _ODE + "fdir1", (0.0, 0.0, 0.0), ("fdir1",),
             note="in the frame of the collision"),
     Setting("slip", "number", "", _ODE + "slip1", 0.0, range=_POSITIVE),
     Setting("second_slip", "number", "", _ODE + "slip2", 0.0, range=_POSITIVE),
-    Setting("torsional_friction", "number", "", "surface/friction/torsional/coefficient", 1.0,
-            range=_POSITIVE),
+    Setting("torsional_friction", "number", "", "surface/friction/torsional/coefficient", 1.0),
     Setting("restitution", "number", "", "surface/bounce/restitution_coefficient", 0.0,
             range=_PART, contact="restitution", usd="physics:restitution"),
     Setting("bounce_velocity", "number", "m/s", "surface/bounce/threshold", 100000.0),
@@ -90,10 +86,8 @@ SURFACE = (
             range=_POSITIVE, contact="stiffness"),
     Setting("contact_damping", "number", "N·s/m", _CONTACT + "kd", 1.0, ("kd",),
             range=_POSITIVE, contact="damping"),
-    Setting("correction_velocity", "number", "m/s", _CONTACT + "max_vel", 0.01, ("maxVel",),
-            range=_POSITIVE),
-    Setting("contact_depth", "number", "m", _CONTACT + "min_depth", 0.0, ("minDepth",),
-            range=_POSITIVE),
+    Setting("correction_velocity", "number", "m/s", _CONTACT + "max_vel", 0.01, ("maxVel",)),
+    Setting("contact_depth", "number", "m", _CONTACT + "min_depth", 0.0, ("minDepth",)),
     Setting("contact_cfm", "number", "", _CONTACT + "soft_cfm", 0.0, range=_POSITIVE),
     Setting("contact_erp", "number", "", _CONTACT + "soft_erp", 0.2, range=_PART),
     Setting("collide_bitmask", "count", "", "surface/contact/collide_bitmask", 65535.0),
@@ -126,14 +120,11 @@ OF_JOINTS = (
             ("springStiffness",), range=_POSITIVE, mjcf="joint stiffness"),
     Setting("spring_reference", "number", "rad or m", "axis/dynamics/spring_reference", 0.0,
             ("springReference",), mjcf="joint springref"),
-    Setting("limit_stiffness", "number", "N·m/rad or N/m", "axis/limit/stiffness", 1e8,
-            range=_POSITIVE),
-    Setting("limit_dissipation", "number", "N·m·s/rad or N·s/m", "axis/limit/dissipation", 1.0,
-            range=_POSITIVE),
+    Setting("limit_stiffness", "number", "N·m/rad or N/m", "axis/limit/stiffness", 1e8),
+    Setting("limit_dissipation", "number", "N·m·s/rad or N·s/m", "axis/limit/dissipation", 1.0),
     Setting("stop_cfm", "number", "", _LIMIT + "cfm", 0.0, ("stopCfm",), range=_POSITIVE),
     Setting("stop_erp", "number", "", _LIMIT + "erp", 0.2, ("stopErp",), range=_PART),
-    Setting("fudge_factor", "number", "", "physics/ode/fudge_factor", 0.0, ("fudgeFactor",),
-            range=_PART),
+    Setting("fudge_factor", "number", "", "physics/ode/fudge_factor", 0.0, ("fudgeFactor",)),
     Setting("implicit_spring_damper", "flag", "", "physics/ode/implicit_spring_damper", False,
             ("implicitSpringDamper", "cfmDamping"), also=_DAMPER),
     Setting("provide_feedback", "flag", "", "physics/provide_feedback", False,
@@ -310,10 +301,6 @@ class _Reading:
 def get_text(element: Element) -> str:
     """Return the value of an element as text: its attribute ``value``, or its content."""
     return (element.get("value") or element.text).strip()
-
-
-def _get(element: Element | None) -> str | None:
-    return None if element is None else get_text(element)
 
 
 def is_true(text: str | None) -> bool:
@@ -507,8 +494,7 @@ def _put_contact(reading: _Reading, contact: Element | None) -> None:
     """Take the values of Bullet's ``<contact>``; its stiffness of 0 means the default."""
     for row in SURFACE if contact is not None else ():
         element = contact.find_child(row.contact) if contact is not None and row.contact else None
-        means_default = row.contact == "stiffness" and number(_get(element)) == 0
-        if element is not None and not means_default:
-            reading.put(row, element)
+        if element is not None and (row.contact != "stiffness" or number(get_text(element)) != 0):
+            reading.put(row, element)  # 0 as a stiffness means the default
     for value in reading.values.values():
         reading.weak.add(id(value))

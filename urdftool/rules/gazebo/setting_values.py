@@ -70,11 +70,16 @@ def setting_out_of_range(robot: Robot) -> Iterator[Problem]:
             if written.is_bullet and not is_unexpanded(text):
                 yield _report(written, f"is '{text}', not a number; write one", (_NO_NUMBER,))
             continue
-        least, most = written.row.range
+        least, most = get_range(written.row)
         if least <= value <= most:
             continue
         where = f"between {least:g} and {most:g}" if math.isfinite(most) else f"{least:g} or more"
         yield _report(written, f"is {value:g}; it must be {where}", _list_effects(written))
+
+
+def get_range(row: Setting) -> tuple[float, float]:
+    """Return the smallest and largest value that make sense."""
+    return (row.range[0] if row.lowest is None else row.lowest, row.range[1])
 
 
 def _list_written(robot: Robot) -> Iterator[_Written]:
@@ -89,10 +94,11 @@ def _list_written(robot: Robot) -> Iterator[_Written]:
 def _list_tags(robot: Robot) -> Iterator[_Written]:
     for name, blocks in robot.extensions.items():
         part = robot.link.get(name or "") or robot.joint.get(name or "")
-        for block in blocks if part is not None else ():
-            for element in block.element.children:
-                for row in list_rows(element.tag) if part is not None else ():
-                    yield _Written(part, element, row)
+        if part is None:
+            continue
+        for element in (child for block in blocks for child in block.element.children):
+            for row in list_rows(element.tag):
+                yield _Written(part, element, row)
 
 
 def _list_bullet(robot: Robot) -> Iterator[_Written]:
