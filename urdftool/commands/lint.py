@@ -218,11 +218,13 @@ def _check_paths(
     from ..lint.options import Options
     from ..lint.outcome import Report
     from ..lint.parallel import WORTH_IT, check_files
+    from ..lint.run import check_file
     from ..lint.settings import Settings, check_selectors, check_targets
     from ..lint.skipped import add_skipped_parts, exclude_files
     from ..workspace import Workspace
     from .lint_report import OutputOptions, report
     from .lint_repository import (
+        check_source,
         find_repository,
         list_robot_files,
         print_list,
@@ -308,7 +310,7 @@ def _check_paths(
         shown = progress if scheduler is not None or len(files) >= WORTH_IT else None
         check_all = check or partial(check_files, scheduler=scheduler, on_progress=shown)
         checked = check_all(files, options, jobs)
-        reports = list(add_skipped_parts(checked, paths, options, belonging))
+        reports = list(add_skipped_parts(checked, paths, check_source, options, belonging))
     if transcript is not None:
         transcript.set_dependencies(reports, workspace.dependencies)
     skipped = [Report(path, skipped=reason) for path, reason in other.skipped.items()]

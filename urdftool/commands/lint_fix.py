@@ -56,6 +56,7 @@ def fix_files(
     from ..rules.inertia.solids import DENSITY
     from ..workspace import STDIN
     from .lint_report import report
+    from .lint_repository import check_source
 
     scales = Scales(DENSITY) if kinds.unsafe else None
     options = replace(options, fixes=True, cache=None, compute_inertia=scales)
@@ -77,7 +78,7 @@ def fix_files(
         return _show(console, done, output)
     if diff:
         _report_count(console, "Would fix", done)
-        whole = add_skipped_parts(done.reports, output.paths, options)
+        whole = add_skipped_parts(done.reports, output.paths, check_source, options)
         failure = report(console, whole, settings, output)
         return failure if failure > 1 else int(bool(done.made) and not output.exit_zero)
     _report_count(console, "Fixed", done)
@@ -87,7 +88,7 @@ def fix_files(
         sys.stdout.flush()
         sys.stdout.buffer.write(done.after.get(STDIN, given))
         sys.stdout.buffer.flush()
-    whole = add_skipped_parts(done.reports, output.paths, options)
+    whole = add_skipped_parts(done.reports, output.paths, check_source, options)
     return max(report(console, whole, settings, output), code)
 
 

@@ -104,6 +104,13 @@ def print_list(files: Sequence[str], found: Repository) -> None:
     _print_unknown(found)
 
 
+def check_source(path: str, options: Options) -> Report:
+    """Check a file of xacro as it is written; imports the rules only where a file needs it."""
+    from ..lint.run import check_file
+
+    return check_file(path, options)
+
+
 def _print_unknown(found: Repository) -> None:
     for what, places in (
         ("paths of descriptions that are computed, and not followed", found.unknown),

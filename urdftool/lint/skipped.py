@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from fnmatch import fnmatch
 from pathlib import Path
@@ -18,6 +18,8 @@ from .outcome import Report
 
 if TYPE_CHECKING:
     from ..source.description import Description
+
+Check = Callable[[str, Options], Report]
 
 _NAMES = 3
 """Number of macros that a message names. Chosen, no source."""
@@ -45,6 +47,7 @@ _STOPPED = "a part of a robot that was not expanded; only its source was checked
 def add_skipped_parts(
     reports: Iterable[Report],
     paths: Iterable[str],
+    check: Check,
     options: Options,
     belonging: Collection[str] = (),
 ) -> Iterator[Report]:
@@ -56,6 +59,7 @@ def add_skipped_parts(
     Args:
         reports: Reports of descriptions.
         paths: Files and folders named by the user.
+        check: Check of a description, ``run.check_file``.
         options: How the descriptions were checked.
         belonging: Resolved paths of files that a robot includes, which may have stopped earlier.
     """
@@ -67,7 +71,7 @@ def add_skipped_parts(
         real = os.path.realpath(path)
         if real in read:
             continue
-        source = _check_part(path, options)
+        source = _check_part(path, check, options)
         if real not in belonging:
             source.skipped = _explain_skipped(path)
             yield source
@@ -76,13 +80,11 @@ def add_skipped_parts(
             yield source
 
 
-def _check_part(path: str, options: Options) -> Report:
+def _check_part(path: str, check: Check, options: Options) -> Report:
     """Check the source of a file that no robot read, unless it is excluded."""
-    from .run import check_file
-
     if _get_pattern(path, options.config, options.workspace) is not None:
         return Report(path)
-    report = check_file(path, replace(options, expand=False, cache=None, fixes=False))
+    report = check(path, replace(options, expand=False, cache=None, fixes=False))
     return replace(report, error=None, stopped="")
 
 

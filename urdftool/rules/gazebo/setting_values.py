@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from ...model.block_elements import list_part_elements
 from ...model.elements import Joint, Link, Robot
 from ...model.read import number
 from ...model.settings import SURFACE, TABLES, Setting, get_text, list_rows, list_settings
@@ -92,11 +93,8 @@ def _list_written(robot: Robot) -> Iterator[_Written]:
 
 
 def _list_tags(robot: Robot) -> Iterator[_Written]:
-    for name, blocks in robot.extensions.items():
-        part = robot.link.get(name or "") or robot.joint.get(name or "")
-        if part is None:
-            continue
-        for element in (child for block in blocks for child in block.element.children):
+    for part in (*robot.links, *robot.joints):
+        for element in list_part_elements(robot, part):
             for row in list_rows(element.tag):
                 yield _Written(part, element, row)
 
