@@ -218,7 +218,6 @@ def _check_paths(
     from ..lint.options import Options
     from ..lint.outcome import Report
     from ..lint.parallel import WORTH_IT, check_files
-    from ..lint.run import check_file
     from ..lint.settings import Settings, check_selectors, check_targets
     from ..lint.skipped import add_skipped_parts, exclude_files
     from ..workspace import Workspace
