@@ -93,7 +93,8 @@ def _list_written(robot: Robot) -> Iterator[_Written]:
 
 
 def _list_tags(robot: Robot) -> Iterator[_Written]:
-    for part in (*robot.links, *robot.joints):
+    parts: list[Link | Joint] = [*robot.links, *robot.joints]
+    for part in parts:
         for element in list_part_elements(robot, part):
             for row in list_rows(element.tag):
                 yield _Written(part, element, row)
