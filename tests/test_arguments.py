@@ -68,7 +68,7 @@ CASES = [
 
 def call(function, **choices):
     needed = {
-        one.name: GIVEN[one.name]
+        one.name: robot().links[0] if one.annotation == "Link" else GIVEN[one.name]
         for one in inspect.signature(function).parameters.values()
         if one.default is one.empty and one.kind is one.POSITIONAL_OR_KEYWORD
     }
@@ -113,7 +113,7 @@ def test_kinds(annotation, allowed, message):
         require_kind("x", value, annotation)
     with pytest.raises(ConfigError, match=message):
         require_kind("x", object(), annotation)
-    require_kind("x", object(), f"Robot | {annotation}")
+    require_kind("x", object(), f"Style | {annotation}")
 
 
 @pytest.mark.parametrize("name", ["pose", "payloads", "fixed_base", "seed", "sweep", "start_rpy"])
@@ -153,3 +153,9 @@ def test_several_robots_are_not_taken_for_options():
     assert api.verify(*two).is_equal
     with pytest.raises(ConfigError, match="only is 3, which is not a list"):
         api.verify(*two, only=3)
+
+
+@pytest.mark.parametrize("name", ["export_mjcf", "export_sdf", "export_usd", "simulate", "check"])
+def test_what_is_no_robot_is_refused(name):
+    with pytest.raises(ConfigError, match="robot is 5, which is not a robot of urdftool"):
+        getattr(api, name)(5)

@@ -19,6 +19,11 @@ def _is_list(value: object) -> bool:
     return isinstance(value, Iterable) and not isinstance(value, str | bytes | PathLike | Mapping)
 
 
+def _is_a(value: object, name: str) -> bool:
+    """Tell whether a class of a value has a name; to import the class takes time."""
+    return any(one.__name__ == name for one in type(value).__mro__)
+
+
 def _is_number(value: object) -> bool:
     return isinstance(value, Real) and not isinstance(value, bool)
 
@@ -37,6 +42,8 @@ _KINDS: Mapping[str, tuple[Callable[[Any], bool], str]] = {
     "Paths": (_is_list, "a list"),
     "Vector": (_is_list, "three numbers"),
     "tuple": (_is_list, "a list"),
+    "Robot": (lambda value: _is_a(value, "Robot"), "a robot of urdftool.load"),
+    "Link": (lambda value: _is_a(value, "Link"), "a link of a robot of urdftool.load"),
 }
 """Whether a value has a kind, and its name in a message, by the first word of an annotation."""
 

@@ -131,6 +131,7 @@ DEFECTS = {
     "a mass with a blank": ("not-a-number", 'value="2"', 'value="2 "'),
     "a bound with a blank": ("not-a-number", 'lower="-1"', 'lower="-1 "'),
     "a tab in an origin": ("tab-or-newline-in-vector", '"0 0 1"/><g', '"0\t0\t1"/><g'),
+    "a reference to a tab": ("tab-or-newline-in-vector", '"0 0 1"/><g', '"0&#9;0&#x9;1"/><g'),
     "a line in a size": ("tab-or-newline-in-vector", "0.1 0.1 1", "0.1\n0.1 1"),
     "a parent with a blank": ("padded-reference", 'parent link="base"', 'parent link="base "'),
     "a leader with a blank": (

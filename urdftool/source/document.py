@@ -178,7 +178,7 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
     except FileNotFoundError:
         raise SourceError("no such file", path=shown) from None
     except IsADirectoryError:
-        raise SourceError("is a folder, not a .urdf or .xacro file", path=shown) from None
+        raise SourceError("is a folder, not a description", path=shown) from None
     except AccessRefused as error:
         raise AccessError(error.strerror or "", path=shown) from None
     except PermissionError:

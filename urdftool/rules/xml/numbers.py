@@ -351,8 +351,13 @@ def _get_drake_conditions(element: Element, name: str, word: str) -> tuple[str, 
 
 
 _TABBED = re.compile(
-    rb"""\s(?:xyz|rpy|size|scale|rgba|quat_xyzw)\s*=\s*("[^"\t\r\n]*[\t\r\n]|'[^'\t\r\n]*[\t\r\n])"""
+    rb"""\s(?:xyz|rpy|size|scale|rgba|quat_xyzw)\s*=\s*"""
+    rb"""("[^"\t\r\n]*?(?:[\t\r\n]|&#)|'[^'\t\r\n]*?(?:[\t\r\n]|&#))"""
 )
+_REFERENCE = re.compile(rb"&#(?:0*(?:9|10|13)|x0*[9adAD]);")
+"""A tab or line break as a reference, which every parser replaces by the character."""
+
+_BLANKS = rf"(?:\s|{_REFERENCE.pattern.decode()})+"
 _UNREADABLE = re.compile(rb"[^\s][\t\r\n]|[\t\r\n](?: |$)")
 
 
@@ -412,8 +417,9 @@ def tab_or_newline_in_vector(robot: Robot, description: Description) -> Iterator
                 if name not in spans:
                     continue
                 start, end = locate_value(element.file.data, spans[name])
-                if _UNREADABLE.search(element.file.data, start, end):
-                    parts = sum(1 for part in element.file.data[start:end].split(b" ") if part)
+                text = _REFERENCE.sub(b"\t", element.file.data[start:end])
+                if _UNREADABLE.search(text):
+                    parts = sum(1 for part in text.split(b" ") if part)
                     amount = "too few numbers" if parts < count else "enough numbers"
                     yield Problem(
                         element,
@@ -439,4 +445,4 @@ def write_blanks(problem: Problem, context: FixContext) -> Proposal | None:
     if found is None:
         return None
     element, name = found
-    return unsafe("write single spaces", substitute(element, name, r"\s+", " "))
+    return unsafe("write single spaces", substitute(element, name, _BLANKS, " "))
