@@ -174,9 +174,25 @@ def test_frames_and_starts_stay_where_the_source_has_them(tmp_path):
     checks = verify_copy(robot, Options(), written)
     assert [check.name for check in checks if check.verdict == "differs"] == []
     models = [mujoco.MjModel.from_xml_string(text) for text in (MOVED, written.text)]
-    for name in ("qpos0", "key_qpos", "eq_data", "tendon_length0", "jnt_range", "dof_invweight0"):
+    names = ("qpos0", "key_qpos", "eq_data", "tendon_length0", "jnt_range", "jnt_bodyid")
+    for name in (*names, "body_mass", "body_inertia", "dof_invweight0"):
         one, other = (getattr(model, name) for model in models)
         assert one == pytest.approx(other, abs=1e-7), name
+
+
+def test_joints_of_one_body_stay_in_it(tmp_path):
+    """A body between them would let its parent and child collide, and need mass."""
+    text = MOVED.replace('size=".1" mass="2"', 'size=".4" mass="2"')
+    (tmp_path / "a.xml").write_text(text)
+    written = write(read(tmp_path / "a.xml").robot, Options(exclude="none"))
+    counts = []
+    for one in (text, written.text):
+        model = mujoco.MjModel.from_xml_string(one)
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        counts.append((model.nbody, model.nexclude, data.ncon))
+    assert counts[0] == counts[1]
+    assert {"lossy-massless", "lossy-overlap"}.isdisjoint(one.code for one in written.losses)
 
 
 def test_couplings_of_a_generated_model_are_relative_to_the_start(tmp_path):

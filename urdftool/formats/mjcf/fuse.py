@@ -24,6 +24,7 @@ from .copied import list_native
 from .frame import read_pose, read_position, set_pose
 from .joint import SITE
 from .link_inertia import LinkInertia, build_inertial_element
+from .source_frames import list_anchors
 from .structure import Structure
 
 REFERENCES = ("body", "body1", "body2", "objname", "refname", "target")
@@ -54,7 +55,8 @@ def fuse_links(
     sites = UniqueNames(tuple(site.get("name", "") for site in sections["worldbody"].iter("site")))
     owner: dict[str, str] = {}
     contacts: dict[str, set[str]] = {}
-    poses: dict[str, Pose] = {}
+    anchors = list_anchors(structure.robot)
+    poses = {link: Pose(translation=anchor) for link, anchor in anchors.items()}
     for joint in structure.joints:
         link, body = joint.child, bodies[joint.child]
         parent = body.getparent()

@@ -152,10 +152,10 @@ def _find_overlaps(
         compiled, _ = compile_file(path)
     mujoco = import_mujoco_module()
     data = mujoco.MjData(compiled)
-    for name, value in positions.items():
-        joint = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_JOINT, name)
-        if joint >= 0:
-            data.qpos[compiled.jnt_qposadr[joint]] = value
+    for joint in range(compiled.njnt):
+        if compiled.jnt_type[joint] >= int(mujoco.mjtJoint.mjJNT_SLIDE):
+            name = mujoco.mj_id2name(compiled, mujoco.mjtObj.mjOBJ_JOINT, joint)
+            data.qpos[compiled.jnt_qposadr[joint]] = positions.get(name, 0.0)
     try:
         mujoco.mj_forward(compiled, data)
     except mujoco.FatalError as error:

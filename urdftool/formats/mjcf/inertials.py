@@ -71,7 +71,8 @@ def compute_inertials(
             for name in bad:
                 if not group[name].is_possible:
                     wrong.extend(_repair(structure, name, group, fix, force, written))
-        if top != structure.root.name or structure.free:
+        is_joined = structure.robot.format == "mjcf" and structure.robot.link[top].is_virtual
+        if (top != structure.root.name or structure.free) and not is_joined:
             if not (is_extended and _replace_point(structure, top, group, written)):
                 _give_weight(structure, top, group, written)
         for name in [link.name for link in members]:

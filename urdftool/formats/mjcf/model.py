@@ -35,7 +35,7 @@ from .native import add_native
 from .options import Options
 from .plan import Plan
 from .sensor import build_sensor_section
-from .source_frames import restore_frames
+from .source_frames import join_bodies, restore_frames
 from .structure import WORLD, Structure
 
 
@@ -52,6 +52,7 @@ def build_model_text(plan: Plan, assets: Assets, written: Written) -> bytes:
     materials = Materials(robot, written, options.mesh_dir)
     world, bodies = build_body_tree(structure, plan.home, plan.name, written)
     fill_bodies(structure, bodies, plan.masses, assets, materials, written)
+    join_bodies(structure, bodies)
     put_mounted(robot, bodies)
     sections: dict[str, etree._Element] = {
         "compiler": _build_compiler(options, assets, materials),
@@ -73,13 +74,13 @@ def build_model_text(plan: Plan, assets: Assets, written: Written) -> bytes:
     report_gazebo_losses(robot, written)
     _report_controller_losses(robot, written)
     apply_extension(robot, sections, written)
+    restore_frames(robot, bodies, sections)
     create_share_colors(world, materials.elements)
     shared = None if has_copied_actuators(robot, options) else actuators
     sections["default"] = build_default_section(plan.name, world, shared)
     sections["asset"] = _build_asset(assets, materials)
     if options.fuse:
         fuse_links(structure, bodies, sections, plan.masses, written)
-    restore_frames(structure, bodies, sections)
     add_native(structure, options, sections, written)
     report_losses(written.losses, bodies)
     return assemble(plan.name, sections)

@@ -1,9 +1,9 @@
-"""Frames of bodies, and positions at which joints start, as the source of an export has them.
+"""Bodies with the joints, frames and starts that the source of an export has.
 
-The frame of a link is at its joint. MJCF may have the joint elsewhere in its body (``pos``), and
-the body drawn where the joint is not at zero (``ref``). What follows the frame of a body, such as
-a camera of mode ``track``, and what MuJoCo computes at the start, such as the length of a tendon's
-spring, depends on them.
+The frame of a link is at its only joint. MJCF may have several joints in a body, elsewhere than its
+frame (``pos``), and the body drawn where a joint is not at zero (``ref``). What follows the frame
+of a body, such as a camera of mode ``track``, and what MuJoCo computes at the start, such as the
+length of a tendon's spring, depends on them. Parent and child bodies have no contact.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 from lxml import etree
 
-from ...model.elements import Joint, Vector
+from ...model.elements import Joint, Robot, Vector
 from ...model.kinematics import compute_motion
 from ...model.pose import add, make_pose, rotate
 from ..common.numbers import format_numbers_text, format_pose_text, number_text
@@ -25,15 +25,12 @@ _PLACED = ("inertial", "geom", "site", "camera", "light", "body")
 """Elements of a body that have a position in its frame."""
 
 
-def restore_frames(
-    structure: Structure, bodies: Bodies, sections: Mapping[str, etree._Element]
-) -> None:
-    """Move the frames of bodies to where the MJCF of a robot has them, and joints to their start.
+def join_bodies(structure: Structure, bodies: Bodies) -> None:
+    """Place the bodies of an MJCF at the start of their joints, and join those of one source body.
 
     Args:
         structure: The kinematic tree.
         bodies: Body of each link, in the frame of the link; modified.
-        sections: The model, whose equalities are modified.
     """
     robot = structure.robot
     if robot.format != "mjcf":
@@ -42,14 +39,59 @@ def restore_frames(
     for joint in structure.moving:
         if start.get(joint.name):
             _turn_to_start(bodies[joint.child], joint, start[joint.name])
-    anchors: dict[str, Vector] = {}
-    for frame in robot.frames:
-        if frame.kind == "body":
-            body = bodies[frame.link]
-            x, y, z = make_pose(frame.origin).translation
-            anchors[body.get("name", "")] = -x, -y, -z
-            _move_frame(body, (-x, -y, -z))
-    _move_equalities(sections.get("equality"), anchors, start)
+    for joint in structure.joints:
+        if robot.link[joint.parent].is_virtual:
+            _join(bodies[joint.parent], bodies[joint.child])
+            bodies[joint.parent] = bodies[joint.child]
+
+
+def _join(outer: etree._Element, inner: etree._Element) -> None:
+    """Move the joints of a body without mass into its child, which takes its place.
+
+    Both have the same axes where their joints start.
+    """
+    offset = read_position(inner.get("pos"))
+    joints = outer.findall("joint")
+    for joint in joints:
+        _shift(joint, _negate(offset))
+    pose = read_pose(outer)
+    inner.attrib.pop("quat", "")
+    if outer.get("quat"):
+        inner.set("quat", outer.get("quat", ""))
+    inner.set("pos", format_pose_text(add(pose.translation, rotate(pose.rotation, offset))))
+    if outer.get("childclass"):
+        inner.set("childclass", outer.get("childclass", ""))
+    first = inner.find("joint")
+    place = 0 if first is None else inner.index(first)
+    inner[place:place] = joints
+    parent = outer.getparent()
+    assert parent is not None
+    parent.replace(outer, inner)
+
+
+def restore_frames(robot: Robot, bodies: Bodies, sections: Mapping[str, etree._Element]) -> None:
+    """Move the frames of bodies to where the MJCF of a robot has them.
+
+    Args:
+        robot: The robot.
+        bodies: Body of each link, in the frame of the link; modified.
+        sections: The model, whose equalities are modified.
+    """
+    anchors = list_anchors(robot)
+    for link, anchor in anchors.items():
+        _move_frame(bodies[link], anchor)
+    named = {bodies[link].get("name", ""): anchor for link, anchor in anchors.items()}
+    _move_equalities(sections.get("equality"), named, get_start(robot))
+
+
+def list_anchors(robot: Robot) -> dict[str, Vector]:
+    """Return the position [m] of a link's frame in that of its body, where they differ, by link."""
+    frames = robot.frames if robot.format == "mjcf" else ()
+    return {
+        frame.link: _negate(make_pose(frame.origin).translation)
+        for frame in frames
+        if frame.kind == "body"
+    }
 
 
 def _turn_to_start(body: etree._Element, joint: Joint, position: float) -> None:
@@ -64,15 +106,20 @@ def _turn_to_start(body: etree._Element, joint: Joint, position: float) -> None:
 
 def _move_frame(body: etree._Element, anchor: Vector) -> None:
     """Move the frame of a body from its joint, whose position [m] in the new frame is given."""
-    x, y, z = anchor
-    _shift(body, rotate(read_pose(body).rotation, (-x, -y, -z)))
+    _shift(body, rotate(read_pose(body).rotation, _negate(anchor)))
     for child in body.iterchildren(*_PLACED):
         _shift(child, anchor)
     for joint in body.iterchildren("joint"):
-        joint.set("pos", format_numbers_text(anchor))
+        _shift(joint, anchor)
+
+
+def _negate(point: Vector) -> Vector:
+    return -point[0], -point[1], -point[2]
 
 
 def _shift(element: etree._Element, by: Vector) -> None:
+    if element.tag == "joint" and element.get("type") == "slide":  # which has no position
+        return
     position = add(read_position(element.get("pos")), by)
     element.attrib.pop("pos", "")
     if any(position) or element.tag == "inertial":  # whose position is required
