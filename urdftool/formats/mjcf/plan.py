@@ -146,7 +146,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     planned = replace(
         structure.robot,
         joints=_set_efforts(structure.robot, actuators),
-        frames=[*sensors.frames, *(frame for frame in robot.frames if frame.kind == "body")],
+        frames=[*sensors.frames, *_list_body_frames(robot)],
         mounted_sensors=sensors.sensors,
         cameras=sensors.cameras,
         closures=plan_closures(structure, written),
@@ -160,6 +160,11 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     structure = replace(structure, robot=planned)
     report_open_loops(planned, home.positions, written)
     return Plan(name, options, structure, home, masses, boxes, wrong)
+
+
+def _list_body_frames(robot: Robot) -> list[Frame]:
+    """Return the frames of bodies that an export keeps: those of an MJCF."""
+    return [frame for frame in robot.frames if frame.kind == "body" and robot.format == "mjcf"]
 
 
 def _add_armatures(robot: Robot, loads: Mapping[str, JointLoad]) -> dict[str, JointLoad]:

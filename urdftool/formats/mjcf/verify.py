@@ -46,6 +46,9 @@ from .write import write
 CONFIGURATIONS = 20
 """Random configurations of the dynamics; chosen, no source."""
 
+_FAR = 1e3
+"""Largest position [rad or m] of a joint with wide limits; chosen, no source."""
+
 POSE, FORCE, MASS = 1e-9, 1e-8, 1e-12
 """Tolerances of positions [m], of forces and of masses, relative; chosen above rounding errors."""
 
@@ -290,8 +293,9 @@ def _list_configurations(mechanics: Mechanics, compiled: Compiled) -> Iterator[d
         for joint in mechanics.joints:
             reach = math.pi if joint.type != "prismatic" else 1.0
             low, high = get_limits(joint)
-            low, high = (max(low, -1e3), min(high, 1e3)) if low < high else (-reach, reach)
-            if not joint.is_limited:
+            is_bounded = low < high and math.isfinite(low) and math.isfinite(high)
+            low, high = max(low, -_FAR), min(high, _FAR)
+            if not joint.is_limited or not is_bounded:
                 low, high = -reach, reach
             positions[joint.name] = float(random.uniform(low, high))
         yield positions | welded
@@ -317,7 +321,8 @@ def _check_frames(
 ) -> Check:
     check = Check("frames", f"pose of every link, {len(configurations)} configurations", POSE)
     torn = declared.has_any(*TORN)
-    frames = [frame for frame in mechanics.robot.frames if frame.kind == "body"]
+    has_frames = mechanics.robot.format == "mjcf"  # whose bodies keep their frames
+    frames = [f for f in mechanics.robot.frames if f.kind == "body" and has_frames]
     in_link = {frame.link: get_origin_matrix(frame.origin) for frame in frames}
     for positions in configurations:
         compiled.set_pose(positions)
