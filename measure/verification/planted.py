@@ -137,7 +137,7 @@ class Harness:
             for d in self.compare_unchanged(one, two):
                 if d.is_convention:
                     continue
-                known = {*d.names} & self.lost or (d.kind == "robot" and result.announced)
+                known = {d.kind, *d.names} & self.lost or (d.kind == "robot" and result.announced)
                 if d.row == "base" and self.source.base is None:  # each export chooses and prints
                     known = True
                 place = result.announced if known else result.invented

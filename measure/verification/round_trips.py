@@ -48,13 +48,20 @@ def load_robot(path: Path) -> Robot:
 
 
 def export(robot: Robot, name: str, folder: Path) -> tuple[Path, dict[str, set[str]]]:
-    """Export a robot; return the file, and the codes of losses by name of the link or joint."""
+    """Export a robot; return the file, and the codes of losses by name of the link or joint.
+
+    Elements of SDF that are lost are named by their tag, as the kind of a difference: a loss has
+    the paths of several.
+    """
     written = format_named(name).write(weld_base(robot), OPTIONS.get(name, UrdfOptions(force=True)))
     write_directory(folder, written.files, main=written.main)
     lost: dict[str, set[str]] = {}
     for loss in written.losses:
         if loss.code != "lossy-limit":
             lost.setdefault(loss.name, set()).add(loss.code)
+        if loss.code == "unread-element":
+            for path in loss.data["names"]:
+                lost.setdefault(f"<{path.split()[0].split('/')[0]}>", set()).add(loss.code)
     return folder / written.main, lost
 
 

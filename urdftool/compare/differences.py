@@ -6,7 +6,7 @@ that robots that form no tree can be compared, and a body with other frames is n
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 
 from ..errors import ModelError
 from ..model.angles import restore_angle
@@ -63,11 +63,15 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Dif
     yield from compare_mechanisms(a, b, tolerance, renamed)
     if are_of_one_format(a, b):
         yield from compare_native(a.native, b.native, tolerance, renamed)
-    if a.format == b.format and a.xml is None:
-        yield from _compare_whole(a, b, tolerance)
+    if a.format != b.format:
+        yield from _compare_whole(a, b, tolerance, _OF_ALL_FORMATS)
+    elif a.xml is None:
+        yield from _compare_whole(a, b, tolerance, _OF_THE_WHOLE)
 
 
-def _compare_whole(a: Robot, b: Robot, tolerance: float) -> Iterator[Difference]:
+def _compare_whole(
+    a: Robot, b: Robot, tolerance: float, names: Container[str]
+) -> Iterator[Difference]:
     """Yield the differences of base, world and looks, and of settings of whole robots.
 
     They are those of ``compare.compare_robots``, which needs trees; in robots that form none, only
@@ -75,7 +79,7 @@ def _compare_whole(a: Robot, b: Robot, tolerance: float) -> Iterator[Difference]
     """
     rows = [row._replace(tolerance=min(row.tolerance, tolerance)) for row in ROWS]
     try:
-        found = compare_robots(a, b, rows=[row for row in rows if row.name in _OF_THE_WHOLE])
+        found = compare_robots(a, b, rows=[row for row in rows if row.name in names])
     except ModelError:
         return
     for difference in found.differences:
@@ -174,6 +178,9 @@ def _list_replacements(
 
 _OF_THE_WHOLE = frozenset(("base", "world", "looks", "link flags"))
 """Rows that hold what no link and no joint has, or only the comparison of equal visuals finds."""
+
+_OF_ALL_FORMATS = ("world",)
+"""Those that are compared in two formats."""
 
 _X: Vector = (1.0, 0.0, 0.0)
 

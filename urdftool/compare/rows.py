@@ -41,7 +41,7 @@ ROWS = (
     Row("joint physics", "damping, friction, armature, springs, stops, relative above 1", 1e-6),
     Row("surface", "friction and contact of equal collisions, relative above 1", 1e-6),
     Row("link flags", "gravity, self-collision, damping of motion, wind", 1e-6),
-    Row("world", "gravity, medium and solver, of two MJCF", 1e-6),
+    Row("world", "gravity, wind and medium; solver of two MJCF", 1e-6),
     Row("mass", "mass, relative", 1e-4),
     Row("center of mass", "position in the link [m]", 1e-5),
     Row("inertia", "tensor, relative to its trace", 1e-3),
@@ -72,7 +72,7 @@ EQUIPMENT_ROWS = (
 )
 """Properties that are compared in two files of one format."""
 
-NOT_COMPARED = ("world settings but those of two MJCF",)
+NOT_COMPARED = ("other models of a file",)
 """Parts of a description that are not compared."""
 
 

@@ -9,15 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
-from typing import TYPE_CHECKING
 
 from ..source.document import Element
+from .elements import Link, Material, Robot, Visual
 from .gazebo_colors import COLORS, Color
 from .materials import resolve_material
-from .settings import Setting, Settings, Value, get_text, read_sdf_settings
-
-if TYPE_CHECKING:
-    from .elements import Link, Material, Robot, Visual
+from .read_settings import read_sdf_settings
+from .settings import Rejected, Setting, Settings, Value, get_text
 
 _BLACK = (0.0, 0.0, 0.0, 1.0)
 _DARK = (0.0, 0.0, 0.0, 0.0)
@@ -52,13 +50,16 @@ def add_appearance(robot: Robot) -> None:
     """
     blocks = robot.block_elements
     for link in robot.links:
-        found = _read_blocks(blocks.get(link.name, ()))
+        part = ("link", link.name)
+        found = _read_blocks(blocks.get(link.name, ()), robot.rejected_settings, part)
         script = _find_block_script(blocks.get(link.name, ()))
         for visual in link.visuals if found or script else ():
             visual.appearance, visual.script = found, script
 
 
-def _read_blocks(elements: Iterable[Element]) -> Settings:
+def _read_blocks(
+    elements: Iterable[Element], rejected: list[Rejected], part: tuple[str, str]
+) -> Settings:
     found: Settings = {}
     materials = [element for element in elements if element.tag == "material"]
     if materials and materials[-1].children:
@@ -66,10 +67,10 @@ def _read_blocks(elements: Iterable[Element]) -> Settings:
         rows = [row._replace(path=row.path.removeprefix("material/")) for row in _OF_MATERIALS]
         replaced = (*rows, *(row for row in APPEARANCE if row.name == "transparency"))
         found = {row.name: Value(last, row.default) for row in replaced}
-        found |= _add_diffuse(read_sdf_settings(last, rows))
+        found |= _add_diffuse(read_sdf_settings(last, rows, rejected, part))
     for element in elements:
         if element.tag == "visual":
-            found |= read_sdf_settings(element, APPEARANCE)
+            found |= read_sdf_settings(element, APPEARANCE, rejected, part)
     return found
 
 
@@ -85,11 +86,19 @@ def find_unknown_script(link: Link, visual: Visual) -> str:
     return visual.script or named
 
 
-def read_sdf_appearance(element: Element) -> Settings:
-    """Return the appearance of a ``<visual>`` of SDF; its own values count above a script."""
+def read_sdf_appearance(
+    element: Element, rejected: list[Rejected], part: tuple[str, str]
+) -> Settings:
+    """Return the appearance of a ``<visual>`` of SDF; its own values count above a script.
+
+    Args:
+        element: The visual.
+        rejected: Receives the elements whose text is not a value.
+        part: Kind and name of its link.
+    """
     color = COLORS.get(find_script(element))
     named = {} if color is None else convert_color(element, color)
-    return named | _add_diffuse(read_sdf_settings(element, APPEARANCE))
+    return named | _add_diffuse(read_sdf_settings(element, APPEARANCE, rejected, part))
 
 
 def _add_diffuse(settings: Settings) -> Settings:

@@ -25,6 +25,22 @@ from .extensions import Ros2Control as Ros2Control
 from .extensions import Sensor as Sensor
 from .extensions import Transmission as Transmission
 from .extensions import TransmissionJoint as TransmissionJoint
+from .joint import BALL_TYPES as BALL_TYPES
+from .joint import JOINT_TYPES as JOINT_TYPES
+from .joint import MOVING_TYPES as MOVING_TYPES
+from .joint import Axis as Axis
+from .joint import Calibration as Calibration
+from .joint import Dynamics as Dynamics
+from .joint import Joint as Joint
+from .joint import Limit as Limit
+from .joint import Mimic as Mimic
+from .joint import SafetyController as SafetyController
+from .link import Collision as Collision
+from .link import Inertia as Inertia
+from .link import Inertial as Inertial
+from .link import Link as Link
+from .link import Material as Material
+from .link import Visual as Visual
 from .mechanism import (
     Base,
     Camera,
@@ -42,7 +58,7 @@ from .part import ZERO as ZERO
 from .part import Origin as Origin
 from .part import Part as Part
 from .part import Vector as Vector
-from .settings import Rejected, Settings, get_number, is_set
+from .settings import Rejected, Settings
 from .shapes import Box as Box
 from .shapes import Capsule as Capsule
 from .shapes import Cone as Cone
@@ -53,267 +69,11 @@ from .shapes import Mesh as Mesh
 from .shapes import Plane as Plane
 from .shapes import Sphere as Sphere
 from .shapes import UnknownShape as UnknownShape
+from .tree import KinematicTree
 
 if TYPE_CHECKING:
     from ..finding import Finding
     from ..source.description import Description
-    from .tree import KinematicTree
-
-
-@dataclass(slots=True)
-class Inertia(Part):
-    """Inertia tensor [kg·m²] about the center of mass, in the inertial frame."""
-
-    ixx: float = 0.0
-    ixy: float = 0.0
-    ixz: float = 0.0
-    iyy: float = 0.0
-    iyz: float = 0.0
-    izz: float = 0.0
-
-    @property
-    def moments(self) -> Vector:
-        """Return the diagonal: ixx, iyy, izz."""
-        return self.ixx, self.iyy, self.izz
-
-    @property
-    def products(self) -> Vector:
-        """Return the off-diagonal elements: ixy, ixz, iyz."""
-        return self.ixy, self.ixz, self.iyz
-
-    @property
-    def six(self) -> tuple[float, float, float, float, float, float]:
-        """Return ixx, ixy, ixz, iyy, iyz, izz."""
-        return self.ixx, self.ixy, self.ixz, self.iyy, self.iyz, self.izz
-
-
-@dataclass(slots=True)
-class Inertial(Part):
-    """Mass [kg], pose of the inertial frame in the link frame, inertia; None if not written."""
-
-    origin: Origin | None = None
-    mass: float | None = None
-    inertia: Inertia | None = None
-
-
-@dataclass(slots=True)
-class Material(Part):
-    """Named color (``rgba``, each 0 to 1) or texture; both None for a reference by name."""
-
-    name: str = ""
-    color: tuple[float, float, float, float] | None = None
-    texture: str | None = None
-
-
-@dataclass(slots=True)
-class Visual(Part):
-    """Visual geometry of a link.
-
-    Attributes:
-        appearance: Settings of ``appearance.APPEARANCE`` in addition to the material.
-        script: Material of an Ogre script that its reader does not know.
-    """
-
-    name: str | None = None
-    origin: Origin | None = None
-    geometry: Geometry | None = None
-    material: Material | None = None
-    appearance: Settings = field(default_factory=dict)
-    script: str = ""
-
-
-@dataclass(slots=True)
-class Collision(Part):
-    """Collision geometry of a link; ``surface`` has the settings of ``settings.SURFACE``."""
-
-    name: str | None = None
-    origin: Origin | None = None
-    geometry: Geometry | None = None
-    surface: Settings = field(default_factory=dict)
-
-
-@dataclass(slots=True)
-class Link(Part):
-    """Link of a robot: a rigid body or a coordinate frame.
-
-    Attributes:
-        is_virtual: Whether a reader inserted it between two joints that the source writes between
-            the same two bodies; it has no mass and no geometry.
-        settings: Settings of ``settings.OF_LINKS``.
-        surface: Settings that a URDF gives all its collisions.
-        gazebo_material: Material of Gazebo that a ``<gazebo>`` block names; empty for none.
-    """
-
-    name: str = ""
-    inertial: Inertial | None = None
-    visuals: list[Visual] = field(default_factory=list)
-    collisions: list[Collision] = field(default_factory=list)
-    is_virtual: bool = False
-    settings: Settings = field(default_factory=dict)
-    surface: Settings = field(default_factory=dict)
-    gazebo_material: str = ""
-
-    @property
-    def mass(self) -> float:
-        """Return the mass [kg]; 0 if not written."""
-        return (self.inertial.mass or 0.0) if self.inertial else 0.0
-
-    @property
-    def is_weightless(self) -> bool:
-        """Tell whether gravity does not act on the link."""
-        return not is_set(self.settings, "gravity", True)
-
-    @property
-    def is_frame(self) -> bool:
-        """Tell whether the link has no visual, no collision and no inertial."""
-        return not (self.visuals or self.collisions or self.inertial)
-
-
-@dataclass(slots=True)
-class Limit(Part):
-    """Limits of a joint: position [rad or m], effort [N·m or N], velocity [rad/s or m/s].
-
-    None if not written; readers replace a missing ``lower`` or ``upper`` by 0.
-    """
-
-    lower: float | None = None
-    upper: float | None = None
-    effort: float | None = None
-    velocity: float | None = None
-
-
-@dataclass(slots=True)
-class Dynamics(Part):
-    """Forces that depend on the motion of a joint; None if not written.
-
-    Attributes:
-        damping: Damping [N·m·s/rad or N·s/m].
-        friction: Static friction [N·m or N].
-        armature: Inertia of the rotor at the joint [kg·m² or kg] (MJCF).
-    """
-
-    damping: float | None = None
-    friction: float | None = None
-    armature: float | None = None
-
-
-@dataclass(slots=True)
-class Mimic(Part):
-    """Dependence of a joint on another: ``multiplier * position + offset``."""
-
-    joint: str = ""
-    multiplier: float = 1.0
-    offset: float = 0.0
-
-
-@dataclass(slots=True)
-class SafetyController(Part):
-    """Soft limits of a joint and the gains that keep it within them."""
-
-    soft_lower_limit: float = 0.0
-    soft_upper_limit: float = 0.0
-    k_position: float = 0.0
-    k_velocity: float | None = None
-
-
-@dataclass(slots=True)
-class Calibration(Part):
-    """Reference position of a joint."""
-
-    rising: float | None = None
-    falling: float | None = None
-    reference_position: float | None = None
-
-
-@dataclass(slots=True)
-class Axis(Part):
-    """Axis of a joint in the joint frame, as written (not normalized)."""
-
-    xyz: Vector = (1.0, 0.0, 0.0)
-
-
-MOVING_TYPES = frozenset(("revolute", "continuous", "prismatic", "floating", "planar"))
-JOINT_TYPES = MOVING_TYPES | {"fixed"}
-
-BALL_TYPES = frozenset(("spherical", "ball"))
-"""Joint types that URDF does not have and several readers do."""
-
-
-@dataclass(slots=True)
-class Joint(Part):
-    """Connection of a child link to a parent link.
-
-    Attributes:
-        type: Type as written; ``JOINT_TYPES`` are those of URDF. Readers of other formats also
-            use ``ball``, three rotations about the origin, and ``screw``.
-        parent: Name of the parent link; empty if not written.
-        child: Name of the child link; empty if not written.
-        parent_element: The ``<parent>`` element of URDF, if any.
-        child_element: The ``<child>`` element of URDF, if any.
-        axis: Axis; None if not written, which means x.
-        thread_pitch: Translation along the axis [m] for each right-handed turn of a ``screw``.
-        settings: Settings of ``settings.OF_JOINTS``.
-    """
-
-    name: str = ""
-    type: str = ""
-    parent: str = ""
-    child: str = ""
-    parent_element: Element | None = None
-    child_element: Element | None = None
-    origin: Origin | None = None
-    axis: Axis | None = None
-    limit: Limit | None = None
-    dynamics: Dynamics | None = None
-    mimic: Mimic | None = None
-    safety_controller: SafetyController | None = None
-    calibration: Calibration | None = None
-    thread_pitch: float | None = None
-    settings: Settings = field(default_factory=dict)
-
-    @property
-    def spring(self) -> tuple[float, float] | None:
-        """Return stiffness [N·m/rad, N/m] and rest position [rad, m]; None without a spring."""
-        stiffness = get_number(self.settings, "spring_stiffness")
-        rest = get_number(self.settings, "spring_reference")
-        return (stiffness, rest or 0.0) if stiffness else None
-
-    @property
-    def is_preserved(self) -> bool:
-        """Tell whether Gazebo keeps the joint if it is fixed."""
-        return is_set(self.settings, "preserved") or is_set(self.settings, "not_lumped")
-
-    @property
-    def is_fixed(self) -> bool:
-        """Tell whether the type is ``fixed``."""
-        return self.type == "fixed"
-
-    @property
-    def has_axis(self) -> bool:
-        """Tell whether the type uses an axis."""
-        return self.type in ("revolute", "continuous", "prismatic", "planar")
-
-    @property
-    def is_limited(self) -> bool:
-        """Tell whether the type requires limits."""
-        return self.type in ("revolute", "prismatic")
-
-    def get_resistance(self, name: str) -> float:
-        """Return ``damping``, ``friction`` or ``armature``; 0 if it is not written or negative."""
-        return max(getattr(self.dynamics, name, None) or 0.0, 0.0)
-
-    @property
-    def turns_freely(self) -> bool:
-        """Tell whether it is continuous, or revolute with a drive and no written bound.
-
-        By the letter of URDF both bounds of the latter are zero, and it could not move; but an
-        effort or a velocity is written for a joint that moves. Bounds that are written count.
-        """
-        limit = self.limit
-        if self.type != "revolute" or limit is None:
-            return self.type == "continuous"
-        is_bounded = limit.lower is not None or limit.upper is not None
-        return not is_bounded and bool(limit.effort or limit.velocity)
 
 
 @dataclass
@@ -339,7 +99,7 @@ class Robot(RobotConversions, Part):
         mounted_plugins: Plugins of Gazebo that are not in a sensor.
         lights: Lights on links.
         settings: Settings of ``settings.OF_ROBOT``.
-        world: Settings of the world around it, of ``settings.OF_WORLD``.
+        world: Settings of the world around it, of ``world_settings``.
         rejected_settings: Elements of settings whose text is not a value.
         native: Elements that a writer of the format of its source copies.
         unread: What the robot does not hold of its source, once for each kind.
@@ -398,9 +158,7 @@ class Robot(RobotConversions, Part):
     @cached_property
     def tree(self) -> KinematicTree:
         """Return the kinematic tree."""
-        from .tree import KinematicTree
-
-        return KinematicTree(self)
+        return KinematicTree(self.link, self.joints)
 
     @cached_property
     def extensions(self) -> dict[str | None, list[GazeboExtension]]:

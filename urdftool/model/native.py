@@ -20,6 +20,7 @@ from .pose import IDENTITY, Pose, rpy_from_rotation
 from .provenance import Written
 from .sensors import read_sensor_pose
 from .settings import OF_JOINTS, SURFACE, Setting, Value
+from .world_settings import OF_SDF
 
 if TYPE_CHECKING:
     from .provenance import Provenance
@@ -36,6 +37,9 @@ OTHER_TAGS = {
 
 LOOP = "joint"
 """Tag of the elements of a model that close loops; other joints are parts of the robot."""
+
+AROUND = "world"
+"""Tag of the element around a model, which has what a world says in addition to its settings."""
 
 NAMED_BY_TAG = ("light", "projector")
 """Elements that have their tag as their name if they write none."""
@@ -58,9 +62,10 @@ HELD_PATHS = {
         *_list_paths(OF_JOINTS),
     ),
     "loop": ("parent", "child", "pose", "axis/xyz", "sensor", "plugin"),
+    "world": (*NESTED, *_list_paths(OF_SDF)),
 }
-"""Paths of what the robot has as values, or what is reported alone, below a shape, a joint, or one
-that closes a loop.
+"""Paths of what the robot has as values, or what is reported alone, below a shape, a joint, one
+that closes a loop, or a world.
 """
 
 
@@ -118,6 +123,23 @@ def make_loop(element: Element, name: str) -> NativeElement:
     made.children = [] if rest is None else rest.children
     made.held = frozenset()  # whether it exists is known from the loop
     return made
+
+
+def make_world(element: Element) -> NativeElement:
+    """Return what the robot does not hold of the world around it, such as lights and physics.
+
+    It has no name, since a robot may be in worlds of any name.
+    """
+    made = NativeElement(Written(element.place, element), AROUND, AROUND)
+    kept = (_leave_out_held(AROUND, AROUND, child, child.tag) for child in element.children)
+    made.children = [child for child in kept if child is not None]
+    made.held = frozenset()  # a file of a model alone is no other robot
+    return made
+
+
+def find_world(robot: Robot) -> NativeElement | None:
+    """Return the world around the model of an SDF; None if its file has none."""
+    return next((element for element in robot.native if element.tag == AROUND), None)
 
 
 def _leave_out_held(section: str, kind: str, element: Element, path: str) -> NativeElement | None:

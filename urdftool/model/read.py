@@ -48,7 +48,8 @@ from .elements import (
 from .native import list_block_elements
 from .numbers import number as number
 from .numbers import parse_numbers as parse_numbers
-from .settings import add_settings
+from .read_settings import add_settings
+from .world_settings import read_options
 
 _T = TypeVar("_T")
 
@@ -82,6 +83,7 @@ def read_robot(root: Element) -> Robot:
         reader = readers.get(child.tag)
         if reader is not None:
             reader(child)
+    robot.world = read_options(root.list_children("mujoco"))
     add_settings(robot)
     add_blocks(robot)
     add_appearance(robot)

@@ -33,7 +33,7 @@ class Remark(NamedTuple):
 
 
 def list_remarks(robot: Robot) -> Iterator[Remark]:
-    """Yield what a robot does not hold as it is written; none for other formats."""
+    """Yield what a robot does not hold as it is written; for MJCF and USD none."""
     for one in robot.rejected_settings:
         yield Remark("rejected-setting", one.place, one.kind, one.name, one.message)
     rejected = {one.place for one in robot.rejected_settings}

@@ -2,7 +2,7 @@
 
 One row is one setting: how SDF names it, which tags of ``<gazebo>`` and of Bullet's ``<contact>``
 set it, and what MJCF and USD have instead. A reader fills ``Collision.surface``, ``Link.settings``
-and ``Joint.settings`` with :func:`read_sdf_settings` or values of its own, writers write them, and
+and ``Joint.settings`` with ``read_settings.py`` or values of its own, writers write them, and
 the comparison compares them. A new setting is a new row.
 
 Of the tags in ``<gazebo>``, the last one in the file counts, in any block; a tag counts before an
@@ -12,16 +12,14 @@ element of SDF in a block, and both count before ``<contact>``. libsdformat 12.3
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..source.document import Element
 from .numbers import number, parse_numbers
 from .part import Part
-
-if TYPE_CHECKING:
-    from .elements import Robot
 
 Content = float | bool | tuple[float, ...] | str
 
@@ -172,25 +170,6 @@ JOINTS_OF_MUJOCO = (
 )  # fmt: skip
 """Settings of a joint that only MuJoCo has, with its defaults."""
 
-OF_WORLD = (
-    Setting("integrator", "text", "", "", "Euler", mjcf="option integrator"),
-    Setting("cone", "text", "", "", "pyramidal", mjcf="option cone"),
-    Setting("gravity", "vector", "m/s²", "", (0.0, 0.0, -9.81), mjcf="option gravity"),
-    Setting("wind", "vector", "m/s", "", (0.0, 0.0, 0.0), mjcf="option wind"),
-    Setting("magnetic", "vector", "", "", (0.0, -0.5, 0.0), mjcf="option magnetic"),
-    Setting("density", "number", "kg/m³", "", 0.0, mjcf="option density"),
-    Setting("viscosity", "number", "Pa·s", "", 0.0, mjcf="option viscosity"),
-    Setting("timestep", "number", "s", "", 0.002, mjcf="option timestep"),
-    Setting("impratio", "number", "", "", 1.0, mjcf="option impratio"),
-    Setting("tolerance", "number", "", "", 1e-8, mjcf="option tolerance"),
-    Setting("iterations", "count", "", "", 100.0, mjcf="option iterations"),
-    Setting("jacobian", "text", "", "", "auto", mjcf="option jacobian"),
-    Setting("solver", "text", "", "", "Newton", mjcf="option solver"),
-    Setting("disabled", "text", "", "", "", mjcf="option disableflags"),
-    Setting("enabled", "text", "", "", "", mjcf="option enableflags"),
-)
-"""Settings of the world around a robot, of ``<option>`` of MJCF, with MuJoCo's defaults."""
-
 TABLES = (SURFACE, OF_LINKS, OF_JOINTS)
 ALL_SURFACE, ALL_OF_LINKS, ALL_OF_JOINTS = (
     SURFACE + SURFACE_OF_MUJOCO, OF_LINKS + LINKS_OF_MUJOCO, OF_JOINTS + JOINTS_OF_MUJOCO
@@ -211,6 +190,9 @@ LUMPING_TAGS = frozenset(tag for row in OF_JOINTS if not row.path for tag in row
 """Tags of a fixed joint that prevent its lumping; the joint stays fixed, also with the second."""
 
 _OPPOSITES = {row.opposite for row in OF_LINKS} - {""}
+_HEXADECIMAL = re.compile("0[xX][0-9a-fA-F]{1,8}")
+"""Whole numbers of SDF, such as bit masks, which libsdformat 12.3 also reads as hexadecimal."""
+
 _TRUE = frozenset(("true", "yes", "1"))
 _FALSE = frozenset(("false", "no", "0"))
 
@@ -262,42 +244,6 @@ class Rejected(Part):
         return f"{known} is '{self.text}', not {self.required}; it is ignored"
 
 
-@dataclass(slots=True)
-class _Reading:
-    """Values of one part while they are read.
-
-    Attributes:
-        name: Name of the part.
-        kind: Kind of the part.
-        rejected: Elements whose text is not a value.
-        values: What was read.
-        weak: Identities of values for another reader, which are replaced without a word.
-    """
-
-    name: str = ""
-    kind: str = "link"
-    rejected: list[Rejected] = field(default_factory=list)
-    values: Settings = field(default_factory=dict)
-    weak: set[int] = field(default_factory=set)
-
-    def put(self, row: Setting, element: Element, *, negated: bool = False) -> None:
-        text = get_text(element)
-        content = parse(row.kind, text)
-        if content is None or (row.lowest is not None and not _is_within(row, content)):
-            if all(one.provenance is not element for one in self.rejected):
-                required = describe_required(row)
-                self.rejected.append(
-                    Rejected(element, self.kind, self.name, element.tag, text, required)
-                )
-            return
-        content = not content if negated else content
-        before = self.values.get(row.name)
-        earlier: tuple[Value, ...] = ()
-        if before is not None and id(before) not in self.weak and before.content != content:
-            earlier = (*before.earlier, before)
-        self.values[row.name] = Value(element, content, earlier)
-
-
 def get_text(element: Element) -> str:
     """Return the value of an element as text: its attribute ``value``, or its content."""
     return (element.get("value") or element.text).strip()
@@ -323,6 +269,8 @@ def parse(kind: str, text: str) -> Content | None:
         return parse_numbers(text, 3)
     if kind == "color":
         return parse_numbers(text, 4) or parse_numbers(f"{text} 1", 4)
+    if kind == "count" and _HEXADECIMAL.fullmatch(text):
+        return float(int(text, 16))
     value = number(text)
     if kind == "count" and value is not None and not (value >= 0 and value.is_integer()):
         return None
@@ -346,10 +294,6 @@ def describe_required(row: Setting) -> str:
     return describe_kind(row.kind) + ("" if row.lowest is None else f" of at least {row.lowest:g}")
 
 
-def _is_within(row: Setting, content: Content) -> bool:
-    return row.lowest is None or isinstance(content, tuple | str) or content >= row.lowest
-
-
 def get_number(settings: Mapping[str, Value], name: str) -> float | None:
     """Return the number of a setting; None if it is not set."""
     value = settings.get(name)
@@ -367,134 +311,3 @@ def is_set(settings: Mapping[str, Value], name: str, default: bool = False) -> b
 def list_rows(tag: str) -> list[Setting]:
     """Return the rows that a tag in ``<gazebo>`` sets; none for another tag."""
     return [row for table in TABLES for row in table if tag in row.tags or tag == row.opposite]
-
-
-def list_settings(robot: Robot) -> Iterator[tuple[str, str, Sequence[Setting], Settings]]:
-    """Yield kind and name of each link and joint with its rows and settings.
-
-    The settings of several collisions of a link are yielded once if they are the same.
-    """
-    for link in robot.links:
-        yield "link", link.name, ALL_OF_LINKS, link.settings
-        surfaces = {id(shape.surface): shape.surface for shape in link.collisions}
-        for surface in surfaces.values():
-            yield "link", link.name, ALL_SURFACE, surface
-    for joint in robot.joints:
-        yield "joint", joint.name, ALL_OF_JOINTS, joint.settings
-
-
-def read_sdf_settings(element: Element, rows: Iterable[Setting], *, axis: str = "axis") -> Settings:
-    """Return the valid settings in the SDF element of a collision, link or joint.
-
-    Args:
-        element: The element.
-        rows: What is read.
-        axis: Tag of the axis of a joint that is read: ``axis`` or ``axis2``.
-    """
-    reading = _Reading()
-    for row in rows:
-        paths = [path.replace("axis/", f"{axis}/") for path in (row.path, row.also) if path]
-        found = next((e for path in paths if (e := _find(element, path)) is not None), None)
-        if found is not None:
-            reading.put(row, found)
-    return reading.values
-
-
-def _find(element: Element, path: str) -> Element | None:
-    found: Element | None = element
-    for tag in path.split("/"):
-        found = None if found is None else found.find_child(tag)
-    return found
-
-
-_WORDS: dict[str, tuple[Content, ...]] = {
-    "integrator": ("Euler", "RK4", "implicit", "implicitfast"),
-    "cone": ("pyramidal", "elliptic"),
-    "jacobian": ("dense", "sparse", "auto"),
-    "solver": ("PGS", "CG", "Newton"),
-}
-"""Words that MuJoCo's reader accepts, by the name of the row."""
-
-_ENABLED = ("override", "energy", "fwdinv", "invdiscrete", "sleep")
-"""Flags of ``<option>`` that are off by default in every version of MuJoCo."""
-
-
-def read_options(extensions: Iterable[Element]) -> Settings:
-    """Return the settings of the world in the ``<option>`` elements of ``<mujoco>`` elements."""
-    reading, flags = _Reading("world"), dict[str, tuple[Element, str]]()
-    for option in (one for each in extensions for one in each.list_children("option")):
-        for row in OF_WORLD:
-            text = option.get(row.mjcf.partition(" ")[2])
-            content = None if text is None else parse(row.kind, text.strip())
-            if content is not None and content in _WORDS.get(row.name, (content,)):
-                reading.values[row.name] = Value(option, content)
-        for flag in option.list_children("flag"):
-            flags |= {name: (flag, state) for name, state in flag.attributes.items()}
-    for name, state, is_extra in (("disabled", "disable", False), ("enabled", "enable", True)):
-        chosen = [flag for flag, (_, text) in flags.items() if text == state]
-        words = [flag for flag in chosen if (flag in _ENABLED) is is_extra]
-        if words:
-            reading.values[name] = Value(flags[words[0]][0], " ".join(sorted(words)))
-    return reading.values
-
-
-def add_settings(robot: Robot) -> None:
-    """Read the settings of a URDF: from ``<gazebo>`` blocks and Bullet's ``<contact>``."""
-    robot.world = read_options(() if robot.xml is None else robot.xml.list_children("mujoco"))
-    blocks, own = robot.block_elements, _Reading(robot.name, "robot")
-    robot.settings = _read_elements(robot, own, blocks.get("", []), OF_ROBOT)
-    for link in robot.links:
-        contact, elements = link.find_child_xml("contact"), blocks.get(link.name, [])
-        if not elements and contact is None:
-            continue
-        link.settings = _read_elements(robot, _Reading(link.name), elements, OF_LINKS)
-        shapes = [e for element in elements if element.tag == "collision" for e in element.children]
-        reading = _Reading(link.name)
-        _put_contact(reading, contact)
-        _put_raw(reading, shapes, SURFACE)
-        link.surface = _read_elements(robot, reading, elements, SURFACE)
-        for collision in link.collisions:
-            collision.surface = link.surface
-        named = [get_text(e) for e in elements if e.tag == "material" and not e.children]
-        link.gazebo_material = named[-1] if named else ""
-    for joint in robot.joints:
-        if elements := blocks.get(joint.name, []):
-            reading = _Reading(joint.name, "joint")
-            joint.settings = _read_elements(robot, reading, elements, OF_JOINTS)
-
-
-def _read_elements(
-    robot: Robot, reading: _Reading, elements: Sequence[Element], rows: Sequence[Setting]
-) -> Settings:
-    """Read the elements in the blocks of a part: a tag counts before an element of SDF."""
-    if rows is not SURFACE:
-        _put_raw(reading, elements[::-1], rows)  # sdformat reads the first of several
-    tags = {tag: row for row in rows for tag in (*row.tags, row.opposite) if tag}
-    for element in elements:
-        if element.tag in tags:
-            for row in rows:
-                if element.tag in row.tags or element.tag == row.opposite:
-                    reading.put(row, element, negated=element.tag == row.opposite)
-    robot.rejected_settings += reading.rejected
-    return reading.values
-
-
-def _put_raw(reading: _Reading, elements: Iterable[Element], rows: Iterable[Setting]) -> None:
-    """Take the values of elements of SDF."""
-    for element in elements:
-        for row in rows:
-            first, _, rest = row.path.partition("/")
-            if element.tag == first:
-                found = _find(element, rest) if rest else element
-                if found is not None:
-                    reading.put(row, found)
-
-
-def _put_contact(reading: _Reading, contact: Element | None) -> None:
-    """Take the values of Bullet's ``<contact>``; its stiffness of 0 means the default."""
-    for row in SURFACE if contact is not None else ():
-        element = contact.find_child(row.contact) if contact is not None and row.contact else None
-        if element is not None and (row.contact != "stiffness" or number(get_text(element)) != 0):
-            reading.put(row, element)  # 0 as a stiffness means the default
-    for value in reading.values.values():
-        reading.weak.add(id(value))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from .elements import Joint, Link, Robot
+from .joint import Joint
+from .link import Link
 
 
 class KinematicTree:
@@ -22,16 +21,16 @@ class KinematicTree:
         roots: Links that are not the child of a joint, in the order of the file.
     """
 
-    def __init__(self, robot: Robot) -> None:
-        """Index the joints of a robot."""
-        self._robot = robot
+    def __init__(self, links: Mapping[str, Link], joints: Iterable[Joint]) -> None:
+        """Index the joints of a robot; of links of one name, the first counts."""
+        self._links = links
         self.joints_of_child: dict[str, list[Joint]] = {}
         self.joints_of_parent: dict[str, list[Joint]] = {}
-        for joint in robot.joints:
+        for joint in joints:
             self.joints_of_child.setdefault(joint.child, []).append(joint)
             self.joints_of_parent.setdefault(joint.parent, []).append(joint)
         self.roots: list[Link] = [
-            link for name, link in robot.link.items() if name not in self.joints_of_child
+            link for name, link in links.items() if name not in self.joints_of_child
         ]
 
     @property
@@ -55,7 +54,7 @@ class KinematicTree:
         todo = [link.name for link in reversed(self.roots)]
         while todo:
             name = todo.pop()
-            if name not in seen and name in self._robot.link:
+            if name not in seen and name in self._links:
                 seen[name] = None
                 todo.extend(joint.child for joint in reversed(self.get_child_joints(name)))
         return list(seen)
@@ -64,7 +63,7 @@ class KinematicTree:
     def detached(self) -> list[Link]:
         """Return the links that no root reaches, because of a loop of joints."""
         reached = set(self.order)
-        return [link for name, link in self._robot.link.items() if name not in reached]
+        return [link for name, link in self._links.items() if name not in reached]
 
     def list_ancestors(self, link: str) -> Iterator[str]:
         """Yield the names of the ancestors of a link, nearest first; a loop is traversed once."""

@@ -252,7 +252,7 @@ def test_the_model_with_most_joints_is_read(tmp_path):
     reading = read(file)
     assert reading.robot.name == "arm"
     assert [(loss.code, loss.name) for loss in reading.losses] == [
-        ("unread-scenery", "sun"),
+        ("unread-world", "sun"),
         ("unread-model", "floor"),
     ]
 

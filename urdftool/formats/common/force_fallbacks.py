@@ -29,7 +29,7 @@ FALLBACKS = {
 }
 """The fallback of each defect that has one which does not depend on the case."""
 
-REPORTED_AS = {"bad-extension-number": "lossy-extension", "mesh-not-found": "lossy-mesh"}
+REPORTED_AS = {"mesh-not-found": "lossy-mesh"}
 """Code of the loss by which a writer reports a defect itself, at its element."""
 
 

@@ -10,7 +10,9 @@ from ...model.appearance import find_unknown_script
 from ...model.elements import Material, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
 from ...model.part import Part
-from ...model.settings import ALL_OF_LINKS, LUMPING_TAGS, Setting, list_settings
+from ...model.read_settings import list_settings
+from ...model.settings import ALL_OF_LINKS, LUMPING_TAGS, Setting
+from ...model.world_settings import list_changed
 from ..written import Written
 
 
@@ -139,8 +141,8 @@ def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     yield _Kind("sensor", "sensor", [(part, part.name) for part in robot.mounted_sensors], info)
     plugins = [(part, part.name or part.library) for part in robot.mounted_plugins]
     yield _Kind("plugin", "plugin", [*plugins], info)
-    world = [(value, name) for name, value in robot.world.items()]
-    yield _Kind("world", "setting of the world", [*world], info)
+    world = [(value, row.name) for row, value in list_changed(robot)]
+    yield _Kind("world-setting", "setting of the world", [*world], info)
     yield _Kind("base", "free base", [(b, "") for b in (robot.base,) if b and b.is_free], info)
     rotors = [(j.dynamics, j.name) for j in robot.joints if j.dynamics and j.dynamics.armature]
     yield _Kind("joint-armature", "armature of joint", [*rotors])

@@ -10,7 +10,7 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.pose import Pose, quaternion_from_rotation
-from ...model.settings import OF_WORLD
+from ...model.world_settings import OF_MUJOCO
 from ..common.naming import UniqueNames
 from ..common.numbers import format_numbers_text, number_text
 from ..written import Written
@@ -123,7 +123,7 @@ def _put(sections: dict[str, etree._Element], *made: etree._Element | None) -> N
 def _build_option(robot: Robot) -> etree._Element:
     """Build ``<option>`` with the settings of the world."""
     option = etree.Element("option")
-    attributes = get_attributes(robot.world, OF_WORLD)
+    attributes = get_attributes(robot.world, OF_MUJOCO)
     for state in ("disable", "enable"):
         words = attributes.pop(f"{state}flags", "")
         if words:

@@ -19,7 +19,7 @@ from ...model.mechanism import (
 )
 from ...model.pose import IDENTITY, Pose, get_origin_at, rotate, rotation_from_quaternion
 from ...model.provenance import Written
-from ...model.settings import OF_WORLD
+from ...model.world_settings import OF_MUJOCO
 from .read_compile import Row
 from .read_context import Context, read_settings
 
@@ -46,7 +46,7 @@ def add_extras(context: Context, robot: Robot) -> None:
             context.losses.add(kind, text, row["name"], place, severity)
     (option,) = context.list_rows("option")
     element = context.expanded.root.find_child("option") or context.expanded.root
-    robot.world = read_settings(option, OF_WORLD, Written(element.place))
+    robot.world = read_settings(option, OF_MUJOCO, Written(element.place))
     _add_frames(context, robot)
     for row in context.list_rows("actuator"):
         _add_actuator(context, robot, row)

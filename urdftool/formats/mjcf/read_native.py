@@ -13,7 +13,7 @@ from ...model.elements import Robot
 from ...model.mechanism import NativeElement
 from ...model.part import Part
 from ...model.provenance import Written
-from ...model.settings import OF_WORLD
+from ...model.world_settings import OF_MUJOCO
 from ...source.document import Element, parse
 from ...source.location import SourceFile
 from .read_compile import Row
@@ -277,7 +277,7 @@ def _report_section(context: Context, section: Element, setting: str) -> None:
             _report(context, code, name, written)
 
 
-_OPTIONS = frozenset(row.mjcf.partition(" ")[2] for row in OF_WORLD)
+_OPTIONS = frozenset(row.mjcf.partition(" ")[2] for row in OF_MUJOCO)
 
 
 def _report_merged(context: Context, section: Element, setting: str) -> None:

@@ -12,6 +12,7 @@ from ...errors import SourceError
 from ...finding import Finding
 from ...lint.validate import validate
 from ...model.elements import Robot
+from ...model.world_settings import OF_MUJOCO
 from ...source.document import parse, read_file
 from ...source.packages import find_own_package, shorten_path
 from ..common.directory import mark
@@ -31,7 +32,7 @@ from .structure import Structure
 _NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", re.IGNORECASE)
 
 EXPRESSED = (
-    *("base", "joint-spring", "joint-armature", "setting", "world", "joint-actuator", "exclusion"),
+    *("base", "joint-spring", "joint-armature", "setting", "joint-actuator", "exclusion"),
     *("camera", "sensor", "closure", "light", "frame"),
 )
 """Codes of parts of other formats that an export writes, or reports itself."""
@@ -95,8 +96,10 @@ def _report_unexpressed(robot: Robot, written: Written) -> None:
     """Report what the reader left out and no element of the export has."""
     kept = has_copies(robot, "keyframe")
     left = [c for c in robot.configurations if not kept and c.name != REFERENCE]
+    options = {row.name for row in OF_MUJOCO}
+    world = {name: value for name, value in robot.world.items() if name not in options}
     unread = tuple(list_uncopied(robot, robot.unread))
-    rest = replace(robot, unread=unread, configurations=left)
+    rest = replace(robot, unread=unread, configurations=left, world=world)
     report_unexpressed(rest, written, expressed=EXPRESSED)
 
 

@@ -50,7 +50,6 @@ def merge_elements(node: Node, t: Translation, link: Link, tag: str) -> None:
 
 def link_extensions(node: Node, t: Translation, link: Link) -> None:
     """Convert the settings of a link, except shapes, materials and sensors."""
-    _report_settings(t, link, {**link.surface, **link.settings})
     _report_untouchable(t, link)
     if t.plan.stays(link.name):
         write_settings(node, link.settings, OF_LINKS)
@@ -84,7 +83,6 @@ def _report_merged_flags(t: Translation, link: Link) -> None:
 
 def convert_joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
     """Convert the settings of a joint, except sensors."""
-    _report_settings(t, joint, joint.settings)
     for element in list_part_elements(t.robot, joint):
         tag = element.tag
         if tag == "plugin":
@@ -125,19 +123,6 @@ def report_dissolved_joint(t: Translation, joint: Joint) -> None:
             joint,
             hint="keep the joint with <preserveFixedJoint>true</preserveFixedJoint>",
         )
-
-
-def _report_settings(t: Translation, part: Link | Joint, settings: Mapping[str, Value]) -> None:
-    """Report rejected values, and tags that are set to several."""
-    for one in t.robot.rejected_settings:
-        if (one.kind, one.name) == (part.tag, part.name):
-            text = f"<{one.tag}> of '{one.name}' is '{one.text}', not {one.required}"
-            t.report_loss("extension", f"{text}; it is not exported", one, part)
-    for value in {id(value.provenance): value for value in settings.values()}.values():
-        if value.earlier:
-            text = f"<{value.tag}> of '{part.name}' is set several times; "
-            used = f"{format_content(value.written)}, which Gazebo takes, is used"
-            t.report_loss("repeated", text + used, value, part)
 
 
 def _report_untouchable(t: Translation, link: Link) -> None:

@@ -185,7 +185,6 @@ LOSSES = {
     "planar": "a planar joint becomes two prismatic joints and a revolute one",
     "plugin": "a plugin of Gazebo Classic was translated, or has no successor",
     "reference": "a `<gazebo>` block refers to an unknown name",
-    "repeated": "a tag is set twice; the last one is used",
     "ros2-control": "`<ros2_control>` is read from robot_description, not from SDF",
     "safety": "`<safety_controller>` is kept as a comment",
     "sensor": "a sensor's type was translated, or the target does not have it",

@@ -8,18 +8,20 @@ from dataclasses import replace
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.mechanism import Closure, NativeElement
-from ...model.native import LOOP, NESTED
+from ...model.native import AROUND, LOOP, NESTED
 from ...model.part import Part
 from ...model.pose import IDENTITY, Pose, make_pose, rotation_from_rpy
 from ...model.provenance import Written as Source
 from ...model.sensors import get_kind
 from ...model.world import WORLD
+from ...model.world_settings import OF_SDF
 from ...source.document import Element
 from ..common.naming import get_free_name
 from ..common.numbers import format_numbers_text
 from ..common.unexpressed import report_unexpressed
 from ..written import Written
 from .names import remove_reserved
+from .options import Options
 from .pose import set_pose
 from .translation import Translation
 from .xml import Node, add, append_copy, append_native, merge
@@ -35,8 +37,10 @@ _IN_PARTS = ("collision", "visual", "joint")
 """Tags of what shapes and joints have in addition."""
 
 
-def report_uncopied(robot: Robot, written: Written) -> None:
+def report_uncopied(robot: Robot, options: Options, written: Written) -> None:
     """Report what the reader left out, and parts that no element of the export has."""
+    in_world = {row.name for row in OF_SDF if options.world}
+    robot = replace(robot, world={n: v for n, v in robot.world.items() if n not in in_world})
     expressed: tuple[str, ...] = ("base", "joint-spring")
     if robot.format == "sdf":
         expressed = (*expressed, "camera", "sensor", "plugin", "closure")
@@ -48,7 +52,7 @@ def report_uncopied(robot: Robot, written: Written) -> None:
 def add_native(model: Node, t: Translation) -> None:
     """Add the copied elements of a robot to its model."""
     for element in _list_native(t):
-        if element.tag in _IN_PARTS or element.tag in NESTED:
+        if element.tag in (*_IN_PARTS, *NESTED, AROUND):
             continue  # in its shape or joint; the links of nested models are those of the model
         place = _find_place(model, t, element)
         if place is None:

@@ -9,10 +9,13 @@ from ...errors import ModelError
 from ...model.blocks import add_plugin
 from ...model.elements import Link, Robot
 from ...model.mechanism import Base
+from ...model.native import make_world
 from ...model.pose import IDENTITY, get_origin_at
 from ...model.provenance import Written
-from ...model.settings import OF_ROBOT, read_sdf_settings
+from ...model.read_settings import read_sdf_settings
+from ...model.settings import OF_ROBOT
 from ...model.world import WORLD
+from ...model.world_settings import OF_SDF
 from ...source.description import Description
 from ...source.document import Document
 from ...source.location import Place, SourceFile
@@ -30,7 +33,7 @@ from .read_joints import (
     set_shifts,
 )
 from .read_links import Context, read_link
-from .read_models import Models
+from .read_models import BUILT_IN, Models
 from .read_native import add_native
 from .read_scope import Scope, read_own_pose
 
@@ -67,7 +70,12 @@ def read(
     if top is None:
         raise ModelError("the file has no model with a link", at=root.place)
     robot = Robot(Written(top.element.place), top.name, format="sdf")
-    robot.settings = read_sdf_settings(top.element, OF_ROBOT)
+    rejected, part = robot.rejected_settings, ("robot", robot.name)
+    robot.settings = read_sdf_settings(top.element, OF_ROBOT, rejected, part)
+    for world in root.list_children("world"):
+        part = ("world", world.get("name") or "")
+        robot.world = read_sdf_settings(world, OF_SDF, rejected, part)
+        robot.native = [make_world(world)]
     robot.source = Description(str(path), Document(file, root, []), models.files, finder)
     robot.source.gltf_up = "z"  # Gazebo keeps the axes of the file
     context = Context(robot, losses, file.path)
@@ -91,6 +99,8 @@ def _add_plugins(robot: Robot, top: Scope) -> None:
 def _choose(found: list[Scope], name: str, place: Place, losses: Losses) -> Scope | None:
     """Return the model of a name, or with most joints, then most links; report the others.
 
+    Of equal ones, that which is not the ground.
+
     Raises:
         ModelError: No model, or several, have the name.
     """
@@ -103,7 +113,9 @@ def _choose(found: list[Scope], name: str, place: Place, losses: Losses) -> Scop
         )
         for model in found
     }
-    top = max(found, key=lambda model: sizes[id(model)], default=None)
+    top = max(
+        found, key=lambda model: (*sizes[id(model)], model.name not in BUILT_IN), default=None
+    )
     if name and found:
         top = found[find_chosen(name, [model.name for model in found], "model", place)]
     for model in found:

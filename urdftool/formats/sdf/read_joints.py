@@ -15,8 +15,9 @@ from ...model.elements import Axis, Dynamics, Joint, Limit, Link, Mimic, Robot, 
 from ...model.mechanism import Closure, Frame
 from ...model.pose import IDENTITY, Pose, get_origin_at, rotate
 from ...model.provenance import Written
+from ...model.read_settings import read_sdf_settings
 from ...model.sensors import read_sensor
-from ...model.settings import OF_JOINTS, read_sdf_settings
+from ...model.settings import OF_JOINTS, Settings
 from ...model.world import WORLD
 from ...source.document import Element
 from .read_links import Context, normalize_direction
@@ -140,7 +141,7 @@ def add_joint(context: Context, found: Found) -> None:
         found.child,
         origin=get_origin_at(at, written),
     )
-    joint.settings = read_sdf_settings(found.element, OF_JOINTS)
+    joint.settings = _read_settings(context, found, "axis")
     turn = Pose(context.poses[found.child].invert().rotation)
     if found.type in ("universal", "revolute2"):
         middle = f"{found.child}~1"
@@ -172,6 +173,11 @@ def _read_type(found: Found) -> str:
     return "revolute" if found.type in turning else found.type
 
 
+def _read_settings(context: Context, found: Found, axis: str) -> Settings:
+    part, rejected = ("joint", found.name), context.robot.rejected_settings
+    return read_sdf_settings(found.element, OF_JOINTS, rejected, part, axis=axis)
+
+
 def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose) -> None:
     """Set axis, limits, dynamics and coupling of a joint.
 
@@ -197,7 +203,7 @@ def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose
         if (joint.limit.effort, joint.limit.velocity) == (None, None):
             joint.limit = None
     joint.dynamics = _read_dynamics(element)
-    joint.settings = read_sdf_settings(found.element, OF_JOINTS, axis=tag)
+    joint.settings = _read_settings(context, found, tag)
     if found.type == "screw":
         joint.thread_pitch = _read_pitch(found)
     mimic = None if element is None else element.find_child("mimic")

@@ -30,8 +30,9 @@ from ...model.elements import (
 )
 from ...model.pose import IDENTITY, Pose, compute_norm, get_origin_at
 from ...model.provenance import Written
+from ...model.read_settings import read_sdf_settings
 from ...model.sensors import read_sensor
-from ...model.settings import OF_LINKS, SURFACE, Value, read_sdf_settings
+from ...model.settings import OF_LINKS, SURFACE, Value
 from ...source.document import Element
 from ..reading import Losses
 from .read_materials import read_material
@@ -81,7 +82,8 @@ def read_link(context: Context, scope: Scope, prefix: str, element: Element) -> 
             context.record_loss(
                 child.tag, f"elements <{child.tag}> are not read", child, Severity.INFO
             )
-    link.settings = read_sdf_settings(element, OF_LINKS)
+    rejected = context.robot.rejected_settings
+    link.settings = read_sdf_settings(element, OF_LINKS, rejected, ("link", name))
     return link
 
 
@@ -126,7 +128,8 @@ def _read_visual(
     origin = get_origin_at(compute_part_pose(context, scope, prefix, link, element) @ turn, written)
     material, script = read_material(context.robot, element)
     visual = Visual(written, element.get("name"), origin, geometry, material)
-    visual.appearance, visual.script = read_sdf_appearance(element), script
+    rejected, part = context.robot.rejected_settings, _name_part(prefix, link)
+    visual.appearance, visual.script = read_sdf_appearance(element, rejected, part), script
     if material is not None and material.texture and find_script(element):
         visual.appearance.setdefault("metalness", Value(written, 0.0))  # scripts have no metal
     if script:
@@ -134,6 +137,10 @@ def _read_visual(
             "material-script", "scripts of materials are not read", element, Severity.INFO
         )
     return [visual]
+
+
+def _name_part(prefix: str, link: Element) -> tuple[str, str]:
+    return "link", prefix + (link.get("name") or "")
 
 
 def _read_collision(
@@ -144,7 +151,8 @@ def _read_collision(
         return []
     written = Written(element.place)
     origin = get_origin_at(compute_part_pose(context, scope, prefix, link, element) @ turn, written)
-    surface = read_sdf_settings(element, SURFACE)
+    rejected = context.robot.rejected_settings
+    surface = read_sdf_settings(element, SURFACE, rejected, _name_part(prefix, link))
     return [Collision(written, element.get("name"), origin, geometry, surface)]
 
 

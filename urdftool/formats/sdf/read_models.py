@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ...diagnostic import Severity
 from ...errors import ModelError, SourceError
+from ...model.native import make_world
 from ...source.access import MODEL_PATHS
 from ...source.document import Element, parse, read_file
 from ...source.location import SourceFile
@@ -26,6 +27,9 @@ MAX_ELEMENTS = 200_000
 MAX_INCLUDES = 2000
 """Maximum number of included files, which count each time. Chosen."""
 
+
+_SCENERY = ("actor", "light", "road", "population")
+"""Elements next to a model without a world."""
 
 BUILT_IN = ("sun", "ground_plane")
 """Models that every Gazebo has: a light, and a static plane. Worlds of Gazebo include both."""
@@ -110,12 +114,19 @@ class Models:
                     found.append(self._read_model(child, version))
                 elif child.tag == "include":
                     found += self._read_scenery(child)
-                elif child.tag in ("actor", "light", "road", "population"):
-                    text = "what else is in the world is not read"
-                    self.losses.add(
-                        "scenery", text, child.get("name") or "", child.place, Severity.INFO
-                    )
+                elif child.tag in _SCENERY and holder is root:
+                    text = "lights and actors next to a model are not read"
+                    name = child.get("name") or ""
+                    self.losses.add("scenery", text, name, child.place, Severity.INFO)
+        for world in worlds:
+            self._report_world(world)
         return found
+
+    def _report_world(self, world: Element) -> None:
+        text = "what else is in the world is compared, not exported"
+        for part in make_world(world).children:
+            name = part.get("name") or f"<{part.tag}>"
+            self.losses.add("world", text, name, part.place, Severity.INFO)
 
     def _read_scenery(self, element: Element) -> list[Scope]:
         """Return the model that a world includes; report one that is not found."""

@@ -56,7 +56,7 @@ def add_native(context: Context, top: Scope) -> None:
             for child in item.element.children:
                 if child.tag in _READ:
                     _report_unread(context, child, child.tag)
-    context.robot.native = found
+    context.robot.native = [*context.robot.native, *found]
 
 
 def _list_copied(context: Context, scope: Scope, prefix: str) -> Iterator[NativeElement]:

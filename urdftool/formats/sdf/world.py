@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from ...model.world_settings import OF_SDF
+from .extensions import write_settings
 from .plugins import get_system_name
 from .sensor_types import RENDERED, SYSTEMS
 from .translation import Translation
@@ -15,7 +17,7 @@ ALWAYS = (
 
 
 def add_world(parent: Node, t: Translation, robot: Node) -> None:
-    """Add a world around the robot.
+    """Add a world around the robot, with the gravity and other settings of the source's.
 
     Args:
         parent: The root element.
@@ -23,6 +25,7 @@ def add_world(parent: Node, t: Translation, robot: Node) -> None:
         robot: The model, which is moved into the world.
     """
     node = add(parent, "world", name="default")
+    write_settings(node, t.robot.world, [row._replace(also="") for row in OF_SDF])
     if t.options.classic:
         for uri in ("model://ground_plane", "model://sun"):
             add(add(node, "include"), "uri", uri)

@@ -74,7 +74,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
     written.losses += decided.losses
-    report_uncopied(robot, written)
+    report_uncopied(robot, options, written)
     settings = choose_joint_settings(robot, options, written)
     t = Translation(robot, options, plan, names, meshes, written, settings)
     root = _build_root(options)

@@ -15,6 +15,7 @@ from ....errors import UrdftoolError
 from ....model.elements import Dynamics, Joint, Limit, Robot
 from ....model.load import read_again
 from ....model.mechanism import MountedSensor, NativeElement
+from ....model.native import AROUND
 from ....model.sensors import get_kind
 from ....model.world import WORLD, add_gazebo_base, weld_base
 from ...common.actuator_config import JointSettings, read_actuator_config
@@ -96,7 +97,9 @@ def read_pair(robot: Robot, written: Written, place: Path, options: Options | No
         *list_dropped_parts(written.losses),
         *list_added_bodies(source),
     ]
-    unread = [loss for loss in reading.losses if loss.code not in COMPARED_AS_ELEMENTS]
+    around = ("unread-world", "unread-model") if options.world else ()  # in the row of the world
+    known = (*COMPARED_AS_ELEMENTS, *around)
+    unread = [loss for loss in reading.losses if loss.code not in known]
     claims = Claims(losses, written.renamed, EXCUSES, unread)
     return Pair(source, reading.robot, claims, options, place, ROWS)
 
@@ -107,6 +110,7 @@ def _read_source(robot: Robot, options: Options, written: Written) -> Robot:
     if options.force:
         source = drop_invalid_parts(source)
     source = add_gazebo_base(source)
+    source = replace(source, native=[one for one in source.native if one.tag != AROUND])
     if options.classic:
         source = replace(source, native=[*_drop_reflectance(source)])
     else:

@@ -13,7 +13,9 @@ from ....compare.proof import describe
 from ....compare.rows import GLOBAL_ROWS
 from ....errors import UrdftoolError
 from ....model.elements import Robot
-from ....model.numbers import parse_numbers
+from ....model.numbers import describe_content
+from ....model.settings import parse
+from ....model.world_settings import OF_SDF
 from ..read import read
 from .pair import Pair
 
@@ -49,9 +51,7 @@ def compare_world(pair: Pair) -> Check:
         check.compare(np.inf, f"{len(models)} models in addition to the ground")
         return check
     _compare_model(pair, path, check)
-    gravity = parse_numbers(world.findtext("gravity") or "0 0 -9.8", 3)
-    if gravity != (0.0, 0.0, -9.8):
-        check.compare(np.inf, f"gravity is {world.findtext('gravity')}")
+    _compare_settings(pair.robot, world, check)
     if world.find("physics") is not None:
         check.compare(np.inf, "<physics>, which the description does not require")
     included = [(uri.text or "").strip() for uri in world.iterfind("include/uri")]
@@ -62,6 +62,18 @@ def compare_world(pair: Pair) -> Check:
     if not pair.options.classic:
         _compare_systems(models[0], world, check)
     return check
+
+
+def _compare_settings(source: Robot, world: ET.Element, check: Check) -> None:
+    """Compare gravity and the other settings with those of the source, or the defaults of SDF."""
+    for row in OF_SDF:
+        text = world.findtext(row.path)
+        found = row.default if text is None else parse(row.kind, text) or text
+        expected = source.world[row.name].content if row.name in source.world else row.default
+        if found != expected:
+            name = row.name.replace("_", " ")
+            why = f"{describe_content(found)}, not {describe_content(expected)}"
+            check.compare(np.inf, f"{name} is {why}")
 
 
 def _compare_model(pair: Pair, path: Path, check: Check) -> None:
