@@ -117,7 +117,7 @@ def hollow_box(
     # ∫x² dV and so on, each with the edge of its own axis cubed
     squares = [
         _compute_cubed_difference(
-            (outer[i], *_collect_others(outer, i)), (inner[i], *_collect_others(inner, i)), t
+            (outer[i], *_get_others(outer, i)), (inner[i], *_get_others(inner, i)), t
         )
         / 12
         for i in range(3)
@@ -186,7 +186,7 @@ def hollow_sphere(
     return _make_body(m, moment, moment, moment)
 
 
-def _collect_others(edges: Sequence[float], axis: int) -> tuple[float, float]:
+def _get_others(edges: Sequence[float], axis: int) -> tuple[float, float]:
     return edges[(axis + 1) % 3], edges[(axis + 2) % 3]
 
 

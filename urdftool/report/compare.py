@@ -23,7 +23,7 @@ def format_text(changes: Iterable[Difference], *, colors: bool = False) -> str:
     for title, group in _list_by_part(changes):
         lines.append(paint(title, bold=True))
         for change in group:
-            before, after = _collect_values(change)
+            before, after = _format_values(change)
             what = describe_what(change)
             color = _COLORS.get(what.rpartition(" ")[2], "yellow")
             what = paint(escape_controls(what), color)
@@ -60,7 +60,7 @@ def format_markdown(names: tuple[str, str], changes: Sequence[Difference]) -> st
         lines += ["", "| part | what | before | after | |", "|---|---|---|---|---|"]
     for title, group in _list_by_part(changes):
         for change in group:
-            before, after = _collect_values(change)
+            before, after = _format_values(change)
             unit = f" {change.unit}" if change.unit else ""
             cells = (
                 title,
@@ -120,7 +120,7 @@ def _list_by_part(changes: Iterable[Difference]) -> Iterator[tuple[str, Iterator
         yield f"{kind} '{escape_controls(name)}'" if name else kind, group
 
 
-def _collect_values(change: Difference) -> tuple[str, str]:
+def _format_values(change: Difference) -> tuple[str, str]:
     before, after = _get_values(change)
     return _format_value(before), _format_value(after)
 

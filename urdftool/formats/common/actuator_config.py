@@ -145,7 +145,7 @@ def _make_settings(name: str, table: Any, path: Path) -> JointSettings:
             hint = suggest_name(key, KEYS, 0.5) or f"; there are {', '.join(KEYS)}"
             raise ConfigError(f"{where}: unknown key '{key}'{hint}", path=path)
         if key == "force-range":
-            values["force_range"] = _collect_range(where, value, path)
+            values["force_range"] = _parse_range(where, value, path)
         elif key == "type":
             if value not in TYPES:
                 text = f"{where}: type must be {', '.join(TYPES[:-1])} or {TYPES[-1]}"
@@ -158,7 +158,7 @@ def _make_settings(name: str, table: Any, path: Path) -> JointSettings:
     return JointSettings(**values)
 
 
-def _collect_range(where: str, value: Any, path: Path) -> tuple[float, float]:
+def _parse_range(where: str, value: Any, path: Path) -> tuple[float, float]:
     pair = [-value, value] if _is_number(value) else value
     right = isinstance(pair, list) and len(pair) == 2 and all(map(_is_number, pair))
     if not right or not pair[0] < pair[1]:

@@ -120,12 +120,12 @@ class Bends:
     Attributes:
         depths: Depth of the foot below the root [m].
         angles: Positions of hip, knee and ankle [rad], by joint name.
-        wanted: Depth of the foot with the knee bent as usual [m].
+        usual: Depth of the foot with the knee bent as usual [m].
     """
 
     depths: Array
     angles: Mapping[str, Array]
-    wanted: float
+    usual: float
 
     def interpolate(self, depth: float) -> dict[str, float]:
         """Return the positions at a depth [m]."""
@@ -228,8 +228,8 @@ def _select_bends(
         return None
     best = best[np.argsort(level[best], kind="stable")]
     depths = level[best] + below
-    wanted = STRETCHED * float(level[best].max()) + below
-    return Bends(depths, {name: values[best] for name, values in angles.items()}, wanted)
+    usual = STRETCHED * float(level[best].max()) + below
+    return Bends(depths, {name: values[best] for name, values in angles.items()}, usual)
 
 
 def _get_inner_range(tree: RigidTree, joint: Joint) -> tuple[float, float]:

@@ -97,13 +97,13 @@ def choose_position_gain(
     """
     most = PART * (load.reduced or load.inertia) / timestep**2
     if effort:
-        wanted = max(effort * POSITION_GAIN[kind], load.stiffness)
+        desired = max(effort * POSITION_GAIN[kind], load.stiffness)
     elif most > 0:
-        wanted = _round(max(load.inertia * FREQUENCY**2, load.force / SAG, load.stiffness))
+        desired = _round(max(load.inertia * FREQUENCY**2, load.force / SAG, load.stiffness))
     else:
         return Gain(PLAIN_GAIN["position"][kind])
-    is_bounded = 0 < most < wanted
-    value = _round(most) if is_bounded else wanted
+    is_bounded = 0 < most < desired
+    value = _round(most) if is_bounded else desired
     force = None if effort else _round(max(value * FULL[kind], 2 * load.force))
     is_stiff = load.is_carried and value > (4 / LONGER) ** 2 * load.free / timestep**2
     damping = _round(2 * math.sqrt(value * load.inertia)) if is_stiff else None
@@ -145,9 +145,9 @@ def choose_velocity_gain(
     """
     if effort and velocity:
         return Gain(effort * VELOCITY_GAIN / velocity)
-    wanted, most = PLAIN_GAIN["velocity"][kind], PART * load.inertia / timestep
-    if effort or not 0 < most < wanted:
-        return Gain(wanted)
+    desired, most = PLAIN_GAIN["velocity"][kind], PART * load.inertia / timestep
+    if effort or not 0 < most < desired:
+        return Gain(desired)
     return Gain(_round(most), is_bounded=True)
 
 

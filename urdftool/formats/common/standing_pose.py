@@ -99,7 +99,7 @@ def _choose_depth(bends: Sequence[Bends]) -> float | None:
     """Return the depth [m] of all feet, the least that bends a leg; None if not all reach one."""
     least = max(float(one.depths[0]) for one in bends)
     most = min(float(one.depths[-1]) for one in bends)
-    return None if least > most else min(max(min(one.wanted for one in bends), least), most)
+    return None if least > most else min(max(min(one.usual for one in bends), least), most)
 
 
 def choose_standing_positions(

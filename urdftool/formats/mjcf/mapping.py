@@ -156,7 +156,7 @@ EXTENSIONS: tuple[Row, ...] = (
         "`equality/connect`, for a hinge in space two; its limits and dynamics are reported",
     ),
     (f"gazebo `joint` {_format_loops('weld')}", CLOSE, "`equality/weld`"),
-    ("gazebo `joint` of another type", LOST_MARK, "said"),
+    ("gazebo `joint` of another type", LOST_MARK, "reported"),
     ("gazebo `light`", CLOSE, "`light`"),
     (
         "gazebo `plugin` that drives the robot",
@@ -189,7 +189,7 @@ def format_markdown() -> str:
     sensors.append(
         ("sensor `contact`", CLOSE, "`touch` in a site over the link's first simple shape")
     )
-    sensors.append(("any other sensor", LOST_MARK, "said"))
+    sensors.append(("any other sensor", LOST_MARK, "reported"))
     parameters = "parameters of sensors: noise, rate, topic, frame, clip"
     sensors.append((parameters, LOST_MARK, "`lossy-sensor-parameter`"))
     lost = [(f"gazebo `{tag}`", LOST_MARK, why) for tag, (why, _) in LOST.items()]

@@ -130,12 +130,12 @@ def _format_package_uri(filename: str, path: Path) -> str:
     return f"package://{own[0]}/{path.resolve().relative_to(own[1].resolve()).as_posix()}"
 
 
-def _give_places(robot: Robot, meshes: MeshFiles, wanted: list[Path]) -> None:
+def _give_places(robot: Robot, meshes: MeshFiles, needed: list[Path]) -> None:
     """Assign paths that keep the folders of a package, so that relative references stay valid."""
-    homes = {path: get_package_path(path) for path in wanted}
+    homes = {path: get_package_path(path) for path in needed}
     several = len({package for package, _ in homes.values()}) > 1
     taken: set[str] = set()
-    for path in wanted:
+    for path in needed:
         package, inner = homes[path]
         parts = [part for part in PurePosixPath(inner).parts if part not in ("", "..", "/")]
         if len(parts) > 1 and parts[0] == "meshes":
@@ -144,7 +144,7 @@ def _give_places(robot: Robot, meshes: MeshFiles, wanted: list[Path]) -> None:
         place = _choose_free_path(place, taken)
         meshes.places[path] = place
         taken.add(place)
-    for path in wanted:
+    for path in needed:
         _add_companions(robot, meshes, path, meshes.places[path])
 
 

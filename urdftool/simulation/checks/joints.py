@@ -89,7 +89,7 @@ def _limit_bound(joint: RigidBodyJoint, run: Run) -> float:
     return bounds.limit_turn
 
 
-def _collect_units(joint: RigidBodyJoint) -> tuple[str, str]:
+def _choose_units(joint: RigidBodyJoint) -> tuple[str, str]:
     return ("m", "N") if joint.kind == "prismatic" else ("rad", "N·m")
 
 
@@ -104,7 +104,7 @@ def _report_joint_drift(robot: Robot, run: Run, state: FinalState) -> Iterator[F
         if state.settled is not None and _rolls(run, column):
             continue  # the wheel turned or slid; whether the robot stands does not depend on it
         need = compute_needed_effort(run, column)
-        length, force = _collect_units(joint)
+        length, force = _choose_units(joint)
         allowed = joint.effort
         if allowed is None:
             why = "the joint has no effort limit; contacts push it away from its target"
@@ -211,7 +211,7 @@ def _report_misled_mimics(robot: Robot, run: Run) -> Iterator[Fault]:
         commanded = joint.multiplier * led + joint.offset
         if not max(joint.lower - commanded, commanded - joint.upper) > _limit_bound(joint, run):
             continue
-        length, _ = _collect_units(joint)
+        length, _ = _choose_units(joint)
         side, limit = ("upper", joint.upper) if commanded > joint.upper else ("lower", joint.lower)
         mimic = _make_joint(robot, joint.name).mimic
         yield Fault(
@@ -234,7 +234,7 @@ def _report_beyond_limits(robot: Robot, run: Run) -> Iterator[Fault]:
         past = max(joint.lower - now, now - joint.upper)
         if not past > _limit_bound(joint, run):
             continue
-        length, _ = _collect_units(joint)
+        length, _ = _choose_units(joint)
         side = "upper" if now > joint.upper else "lower"
         limit = joint.upper if now > joint.upper else joint.lower
         yield Fault(
@@ -263,7 +263,7 @@ def _report_near_effort_limit(robot: Robot, run: Run) -> Iterator[Fault]:
             idle = need is not None and abs(need) < near
             if idle or _rolls(run, column):
                 continue  # the joint returns to its target, or wheels push against each other
-            _, force = _collect_units(joint)
+            _, force = _choose_units(joint)
             yield Fault(
                 "near-effort-limit",
                 Severity.INFO,
@@ -304,7 +304,7 @@ def _report_capped_damping(robot: Robot, run: Run) -> Iterator[Fault]:
         had = run.recording.capped.get(joint.name)
         if had is None:
             continue
-        length, force = _collect_units(joint)
+        length, force = _choose_units(joint)
         part = robot.joint[joint.name]
         least = run.settings.timestep * had / joint.damping
         yield Fault(

@@ -55,7 +55,7 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
         return
     if state.settled is None:
         name, does = _find_fastest_motion(run)
-        joint = _collect_fastest_joint(recording)
+        joint = _find_fastest_joint(recording)
         at = f"; joint '{joint[0]}' moves at {joint[1]:.3g}" if joint else ""
         yield Fault(
             "not-settled",
@@ -111,7 +111,7 @@ def _find_fastest_motion(run: Run) -> tuple[str, str]:
     return _format_fastest_link(run), f"moves at {speeds.max():.3g} m/s"
 
 
-def _collect_fastest_joint(recording: Recording) -> tuple[str, float] | None:
+def _find_fastest_joint(recording: Recording) -> tuple[str, float] | None:
     if not recording.joints:
         return None
     rates = np.abs(np.nan_to_num(recording.rates[-1]))

@@ -64,8 +64,8 @@ class ContactReader:
                     GROUND,
                     float(-contact.dist),
                     float(force[0]),
-                    _collect_three(contact.pos),
-                    _collect_three(normal),
+                    _convert_vector(contact.pos),
+                    _convert_vector(normal),
                 )
             )
         return found
@@ -115,11 +115,11 @@ class ContactReader:
         ):
             one, other, normal = other, one, -normal
         return Contact(
-            self.link(one), self.link(other), -float(distance), 0.0, _collect_three(ends[3:]),
-            _collect_three(normal),
+            self.link(one), self.link(other), -float(distance), 0.0, _convert_vector(ends[3:]),
+            _convert_vector(normal),
         )  # fmt: skip
 
 
-def _collect_three(vector: Any) -> tuple[float, float, float]:
+def _convert_vector(vector: Any) -> tuple[float, float, float]:
     x, y, z = (float(part) for part in vector)
     return x, y, z
