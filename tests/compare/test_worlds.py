@@ -149,3 +149,20 @@ def test_the_ground_is_not_the_robot(write):
     ground = MODEL.replace('"m"', '"ground_plane"')
     robot = api.load(write("one.sdf", make_sdf(ground)))
     assert robot.name == "m"
+
+
+COMMANDS = (
+    "lint one.sdf",
+    "info one.sdf",
+    "diff one.sdf one.sdf",
+    "export usd --force -o o one.sdf",
+)
+
+
+@pytest.mark.library("pxr")
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_says_it(urdftool, write, command):
+    write("one.sdf", make_sdf(GRAVITY.format("down")))
+    result = urdftool(*command.split())
+    line = "one.sdf:3:1: warning: world 'w': gravity is '0 0 down', not three finite numbers; it"
+    assert line in result.err

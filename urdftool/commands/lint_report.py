@@ -206,7 +206,8 @@ def _report_unread(console: Console, reports: Iterable[Report]) -> None:
         kinds.setdefault(finding.code, []).append(finding)
     for first, *others in kinds.values():
         files = {finding.location.path for finding in others} - {first.location.path}
-        more = f" (and in {format_count(len(files), 'more file')})" if files else ""
+        more = f" (and {len(others)} more; -v shows them)" if others else ""
+        more = f" (and in {format_count(len(files), 'more file')})" if files else more
         for line in format_lines([first]):
             console.print_note(line + more)
 

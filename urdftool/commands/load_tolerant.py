@@ -47,7 +47,9 @@ def load_tolerant(
             the reader of its format.
     """
     from ..errors import XmlError
+    from ..formats.common.loss_report import format_lines
     from ..formats.detect import format_of
+    from ..formats.reading import find_remarks
     from ..model.load import make_robot
     from ..source.description import is_xacro
     from ..source.document import read_file
@@ -58,9 +60,7 @@ def load_tolerant(
         from .read_other import read_other
 
         finder = get_finder(console, file, packages, package_paths, neighbors=neighbors)
-        other = read_other(console, found, file, arguments, finder, shown=shown)
-        _print_remarks(console, other, shown)
-        return other
+        return read_other(console, found, file, arguments, finder, shown=shown)
     given = console, path, arguments, packages, package_paths
     read = partial(read_configured, *given, neighbors=neighbors)
     try:
@@ -80,17 +80,9 @@ def load_tolerant(
         report_unknown_arguments(console, description, shown=shown)
     report_assumed_packages(console, description, shown=shown)
     robot = make_robot(description)
-    _print_remarks(console, robot, shown)
-    return add_implicit_world(console, robot, shown=shown)
-
-
-def _print_remarks(console: Console, robot: Robot, shown: Callable[[str], str]) -> None:
-    """Print what a description writes and its robot does not hold."""
-    from ..formats.common.loss_report import format_lines
-    from ..formats.common.remarks import find_remarks
-
     for line in format_lines(find_remarks(robot)):
         console.print_note(shown(line))
+    return add_implicit_world(console, robot, shown=shown)
 
 
 def add_implicit_world(

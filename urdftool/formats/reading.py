@@ -14,6 +14,7 @@ from ..finding import Finding
 from ..isolated import ProcessDied
 from ..limited import LimitExceeded, Limits
 from ..model.elements import Robot
+from ..model.remarks import list_remarks
 from ..projects import is_trusted
 from ..source.document import STDIN, read_file
 from ..source.location import Place, SourceFile
@@ -39,6 +40,12 @@ class Reading:
 
     robot: Robot
     losses: list[Finding] = field(default_factory=list)
+
+
+def find_remarks(robot: Robot) -> Iterator[Finding]:
+    """Yield the remarks on the description of a robot."""
+    for one in list_remarks(robot):
+        yield Finding(one.code, Severity.WARNING, one.message, one.place, one.kind, one.name)
 
 
 def find_chosen(name: str, known: Sequence[str], what: str, place: Place) -> int:

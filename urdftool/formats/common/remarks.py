@@ -2,19 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from ...diagnostic import Severity
-from ...finding import Finding
 from ...model.elements import Robot
-from ...model.remarks import list_remarks
+from ..reading import find_remarks
 from ..written import Written
-
-
-def find_remarks(robot: Robot) -> Iterator[Finding]:
-    """Yield the remarks on the description of a robot."""
-    for one in list_remarks(robot):
-        yield Finding(one.code, Severity.WARNING, one.message, one.place, one.kind, one.name)
 
 
 def add_remarks(robot: Robot, written: Written) -> None:

@@ -21,7 +21,7 @@ from ...source.document import Document
 from ...source.location import Place, SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
-from ..reading import Losses, Reading, find_chosen, open_description
+from ..reading import Losses, Reading, find_chosen, find_remarks, open_description
 from .read_joints import (
     add_closure,
     add_frames,
@@ -82,7 +82,7 @@ def read(
     _fill(context, top)
     _add_plugins(robot, top)
     add_native(context, top)
-    found = losses.make_findings()
+    found = [*losses.make_findings(), *find_remarks(robot)]
     robot.unread = found
     return Reading(robot, found)
 
