@@ -9,7 +9,8 @@ from typing import NamedTuple
 from ...model.block_elements import list_part_elements
 from ...model.elements import Joint, Link, Robot
 from ...model.read import number
-from ...model.settings import SURFACE, TABLES, Setting, get_text, list_rows, list_settings
+from ...model.read_settings import list_settings
+from ...model.settings import SURFACE, TABLES, Setting, get_text, list_rows
 from ...source.document import Element
 from ..rule import ERROR, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
