@@ -42,7 +42,7 @@ def resolve_material(robot: Robot, own: Material | None) -> Material | None:
     return robot.memo.get("materials", lambda: Materials(robot)).find_defined(own)
 
 
-def define_materials(robot: Robot) -> Robot:
+def resolve_materials(robot: Robot) -> Robot:
     """Return a robot whose visuals hold the color and image that their material's name defines."""
 
     def define(visual: Visual) -> Visual:

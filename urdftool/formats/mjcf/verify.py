@@ -22,7 +22,7 @@ from ...mechanics.reference import Array, Mechanics, get_origin_matrix
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import get_limits
 from ...model.load import read_again
-from ...model.materials import define_materials
+from ...model.materials import resolve_materials
 from ...model.mechanism import Closure
 from ...model.world import add_world
 from ..common.losses import DeclaredLosses, name_links
@@ -143,7 +143,7 @@ def _make_expected(source: Robot, planned: Robot) -> Robot:
         source: The robot as its description defines it.
         planned: The robot that a second export writes.
     """
-    source = define_materials(source)
+    source = resolve_materials(source)
     kept = {one.name for one in planned.configurations}
     return replace(
         planned,

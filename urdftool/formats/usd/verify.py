@@ -17,7 +17,7 @@ from ...compare.rows import NATIVE, ROWS, Row
 from ...extras import is_installed
 from ...model.elements import Joint, Robot
 from ...model.load import read_again
-from ...model.materials import define_materials
+from ...model.materials import resolve_materials
 from ...model.world import add_world
 from ...source.document import read_file
 from ..common.directory import write_export
@@ -78,7 +78,7 @@ def make_expected(source: Robot, planned: Robot) -> Robot:
         source: The robot as its description defines it.
         planned: The robot that the export writes.
     """
-    source = define_materials(source)
+    source = resolve_materials(source)
     return replace(
         source,
         format="usd",
