@@ -262,7 +262,7 @@ class Reader:
 
 
 _TEXTS = frozenset((str,))
-_PARTS = 6  # of an element: depth, tag, attributes, file, first byte, calls
+_PARTS = 6  # of an element, by definition of Writer: depth, tag, attributes, file, byte, calls
 
 
 def _read_characters(node: Any, reached: int) -> tuple[int, int, str]:
