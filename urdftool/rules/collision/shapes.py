@@ -42,6 +42,7 @@ _SIZES = {
     },
     group="robot",
     formats=ANY_FORMAT,
+    pedantic="visuals that no reader rejects: spheres of radius 0",
 )
 def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
     """A shape has a length of zero or less.
@@ -76,6 +77,7 @@ def non_positive_dimension(robot: Robot) -> Iterator[Problem]:
                 data={"attribute": name, "value": text, "collides": kind == "collision"},
                 alike=(name, geometry.tag, kind),
                 severity=ERROR if rejected else INFO if is_frame else WARNING,
+                pedantic=not rejected and not aborts,
                 effects=[*["mujoco"] * rejected, *["drake"] * aborts, _SILENT],
             )
 

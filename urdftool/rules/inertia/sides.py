@@ -205,6 +205,7 @@ def _spread(link: Link) -> float:
     WARNING,
     effects={"mujoco, pybullet, pinocchio": "take it as written"},
     formats=ANY_FORMAT,
+    pedantic="links that move the center of mass of the robot by less than 0.1 mm",
 )
 def com_not_mirrored(
     robot: Robot,
@@ -227,9 +228,10 @@ def com_not_mirrored(
     reported. Both ``xyz`` of the message are in the link frame, as the file has them. The fix
     writes the signs of the products of inertia too.
 
-    It is an info if it moves the center of mass of the robot by less than ``slight`` [m]. ``least``
-    [m] is the smallest coordinate that is compared, ``similar`` the relative difference of two
-    equal ones, and ``clear`` the part of the size of a link by which its geometry must lie
+    It is off by default, and an info, if it moves the center of mass of the robot by less than
+    ``slight`` [m]. ``least`` [m] is the smallest coordinate that is compared, ``similar`` the
+    relative difference of two equal ones, and ``clear`` the part of the size of a link by which its
+    geometry must lie
     to one side.
     """
     found = get_sides(robot)
@@ -289,6 +291,7 @@ def com_not_mirrored(
             f"xyz=\"{of_twin}\" of '{twin.name}', but {why}; {remedy}",
             at=origin,
             severity=INFO if moved < slight else None,
+            pedantic=moved < slight,
             data={
                 "twin": twin.name,
                 "axis": "xyz"[axis],

@@ -39,7 +39,10 @@ from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
 from .solids import compute_solid_moments, describe_solid, is_dummy
 from .tensors import SIX, get_tensors, is_accepted, is_positive, is_zero
 
-SIZE_IN_DOUBT = ("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier")
+SIZE_IN_DOUBT = (
+    *("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier"),
+    "non-positive-dimension",
+)
 _SINGULAR = 1e-9
 """The part of the largest moment that counts as zero. Chosen, no source."""
 

@@ -140,13 +140,14 @@ def _is_computed(inertial: Inertial) -> bool:
             "ignore them and take ixy, ixz, iyz"
         ),
     },
+    pedantic="a lower half that repeats the upper one",
 )
 def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
     """An ``<inertia>`` has ``iyx``, ``izx`` or ``izy``.
 
     The tensor is symmetric and readers take only the upper half. If the lower half has other
     values, another matrix was intended. If the upper half lacks the component, the attribute has
-    the wrong name. A lower half that repeats the upper is an info.
+    the wrong name. A lower half that repeats the upper is an info, and off by default.
     """
     for link in robot.links:
         if link.inertial is None or link.inertial.inertia is None:
@@ -167,6 +168,7 @@ def redundant_inertia_attributes(robot: Robot) -> Iterator[Problem]:
                 f"readers ignore {name} in the inertia of link '{link.name}'; {remedy}",
                 at=element.locate_attribute(name),
                 severity=INFO if repeats else None,
+                pedantic=repeats,
                 effects=None if twin in element.attributes else (),
                 data={"twin": twin, "repeats": repeats},
             )

@@ -28,6 +28,7 @@ _MOST = 4_000_000
         "mujoco, pybullet, drake": "load the robot anyway",
     },
     formats=URDF_AND_SDF,
+    pedantic="MTL files, without which a mesh is gray",
 )
 def missing_mesh_dependency(
     robot: Robot, description: Description, *, together: float = 3
@@ -61,6 +62,7 @@ def missing_mesh_dependency(
             at=use.mesh.locate_attribute("filename"),
             severity=None if any(_has_shape(name) for one in named for name in one) else INFO,
             data={"uri": use.uri, "names": list(missing)},
+            pedantic=all(name.lower().endswith(".mtl") for one in named for name in one),
         )
 
 

@@ -6,12 +6,13 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...source.description import Description
 from ...source.packages import shorten_path, suggest_folder
 from ..mesh.dropped import is_dropped
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses
-from ..rule import WARNING, Problem, rule
+from ..rule import INFO, ROS, WARNING, Problem, rule
 
 APPLIES_TO = ("mesh",)
 
@@ -26,7 +27,9 @@ APPLIES_TO = ("mesh",)
         "pybullet (a folder)": "takes the folder of that name as the package",
     },
 )
-def package_not_found(robot: Robot, description: Description) -> Iterator[Problem]:
+def package_not_found(
+    robot: Robot, description: Description, targets: frozenset[str]
+) -> Iterator[Problem]:
     """A package cannot be found.
 
     ``$(find NAME)`` and ``package://NAME/`` refer to a ROS package, which is neither near the file,
@@ -34,7 +37,7 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
     The robot may be correct if the package is only missing on this machine, but its meshes were not
     checked. Pass ``--package NAME=DIR`` or ``--package-path DIR``. If a folder of that name near
     the file has the mesh, as for ``package://meshes/arm.stl``, its meshes are read and checked, but
-    ROS does not find them.
+    ROS does not find them: an info if nothing shows that the robot is for ROS.
     """
     lost: dict[str, list[MeshUse]] = {}
     for use in get_mesh_uses(robot, description):
@@ -57,10 +60,13 @@ def package_not_found(robot: Robot, description: Description) -> Iterator[Proble
             hint="; ".join(f"searched {place}" for place in _shorten_places(uses[0].searched)),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (no such folder)"),
         )
-    yield from _report_assumed_packages(robot, description)
+    severity = INFO if targets.isdisjoint(ROS) else WARNING
+    yield from _report_assumed_packages(robot, description, severity)
 
 
-def _report_assumed_packages(robot: Robot, description: Description) -> Iterator[Problem]:
+def _report_assumed_packages(
+    robot: Robot, description: Description, severity: Severity
+) -> Iterator[Problem]:
     """Report packages in whose place a folder of the same name is read."""
     found: dict[str, list[MeshUse]] = {}
     for use in get_mesh_uses(robot, description):
@@ -79,6 +85,7 @@ def _report_assumed_packages(robot: Robot, description: Description) -> Iterator
             f"'{_make_uri_from(uses[0], folder, description)}'",
             at=uses[0].mesh.locate_attribute("filename"),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (a folder)"),
+            severity=severity,
         )
 
 
