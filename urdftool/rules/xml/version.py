@@ -88,7 +88,6 @@ def write_version(problem: Problem, context: FixContext) -> Proposal | None:
 @rule(
     ERROR,
     effects=_FEATURE_EFFECTS,
-    pedantic="limits of acceleration and jerk, which are for other programs",
 )
 def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
     """The robot has a feature of a later URDF version.
@@ -131,7 +130,6 @@ def _report_newer_features(robot: Robot, version: float) -> Iterator[Problem]:
                         at=element.locate_attribute(name),
                         severity=INFO,
                         effects=select_holding(_FEATURE_EFFECTS, "a later limit"),
-                        pedantic=True,
                     )
 
 

@@ -260,6 +260,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     WARNING,
     effects=_ATTRIBUTE_EFFECTS,
     group="robot",
+    pedantic="additional parameters of a <dynamics> that has damping and friction",
 )
 def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     """An attribute is not in URDF for this element.
@@ -301,6 +302,7 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
             at=first.locate_attribute(names[0]),
             severity=severity,
             effects=select_holding(_ATTRIBUTE_EFFECTS),
+            pedantic=severity is INFO and first.tag == "dynamics",
             alike=(first.tag, len(names) > 1, len(elements) > 1),
         )
 
