@@ -154,7 +154,7 @@ def test_findings_are_marked_where_they_are_and_exit_1(urdftool, tmp_path, monke
         "link:forearm": {"error: inertia-triangle-inequality"},
         "joint:elbow": {"error: unknown-attribute"},
         "link:flange": {"info: missing-inertial"},
-        "link:tool": {"error: mesh-not-found", "info: missing-collision"},
+        "link:tool": {"error: mesh-not-found"},
     }
     svg = unescape(Path("arm.svg").read_text("utf-8"))
     for finding in json.loads(urdftool("lint", ARM, "--format", "json").out)["findings"]:

@@ -139,7 +139,7 @@ def rename_reserved(problem: Problem, context: FixContext) -> Proposal | None:
     effects={
         "gz, gazebo-classic": "load the robot, but nothing drives its joints",
     },
-    pedantic="files without a plugin, which a wrapper, a world or a program may add",
+    pedantic="files without a plugin in packages that do not depend on a control plugin of Gazebo",
 )
 def missing_control_plugin(
     robot: Robot, description: Description, targets: frozenset[str], guessed: frozenset[str]
@@ -153,7 +153,7 @@ def missing_control_plugin(
 
     A plugin in an XML comment counts as one that the author left out. A file whose plugins are all
     of sensors is reported as one without; a file without plugins but with transmissions or
-    ``<ros2_control>`` is an info, and off by default.
+    ``<ros2_control>`` is an info, and off by default without such a dependency.
 
     A file without plugins, transmissions and ``<ros2_control>`` is not reported, because a world,
     a wrapper or a program may add the plugin, nor one without plugins that only a ``<gazebo>`` tag
@@ -206,8 +206,9 @@ def missing_control_plugin(
         data |= {"wheel_separation": pair.separation, "wheel_radius": pair.radius}
     message = f"{which} {names} {verb}, but no Gazebo plugin {acts}; add {remedy}"
     is_complete = bool(plugins) or pair is not None
+    is_expected = is_complete or depends_on_control(description, OF_GAZEBO)
     severity = None if is_complete else INFO
-    yield Problem(robot, message, data=data, severity=severity, pedantic=not is_complete)
+    yield Problem(robot, message, data=data, severity=severity, pedantic=not is_expected)
 
 
 @missing_control_plugin.fix(UNSAFE)
