@@ -130,7 +130,7 @@ PLACES = {
         "git_command.py",
         "formats/sdf/verify/loader.py",  # gz sdf
     ),
-    "xacro": (),  # source/xacro_hooks.py loads a copy
+    "xacro": (),  # source/xacro_copy.py loads a copy
     "lxml": ("formats/",),
     "trimesh": ("geometry/",),
     "yourdfpy": ("bundle/yourdfpy_reader.py",),

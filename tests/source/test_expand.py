@@ -111,6 +111,17 @@ CASES = [
     '<a list="${[i*i for i in range(4)]}" d="${dict(a=1)[\'a\']}" pow="${2**3} ${1 &lt;&lt; 4}"/>',
     '<xacro:macro name="m" params="x:=^|7"><a v="${x}"/></xacro:macro><xacro:m/>',
     '<xacro:call macro="m"/>',
+    # elements in which xacro seems to change nothing
+    "<a><!-- xacro:eval-comments --><!-- ${1+1} --><b/></a><c><!-- ${1+1} --></c>",
+    '<a xmlns:xacro="http://www.ros.org/wiki/xacro"><b/></a><a xacro:c="d"><b><c/></b></a>',
+    "<a><b>$${x}</b></a><a><b><c/>${1+1}</b></a><a><b c='$$(x)'/></a>",
+    '<xacro:macro name="m" params="*block"><xacro:insert_block name="block"/><a><b/></a>'
+    '<xacro:insert_block name="block"/></xacro:macro><xacro:m><c><d e="$${1+1}"/></c></xacro:m>',
+    # names alone, values that look like numbers, and arguments that are evaluated twice
+    '<xacro:property name="p" value="${q}"/><xacro:property name="q" value="1_0"/><a b="${p}"/>',
+    '<xacro:property name="p" value="true"/><a b="${p}" c="${p and 1}" d="${ p }"/>',
+    '<xacro:macro name="m" params="a b c"><l a="${a}" b="${b}" c="${c}"/></xacro:macro>'
+    '<xacro:m a="${[1]}" b="${[1]}" c="x${1}"/>',
 ]
 
 
