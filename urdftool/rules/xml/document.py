@@ -156,7 +156,7 @@ _NAME_EFFECTS = {
 @rule(
     WARNING,
     effects=_NAME_EFFECTS,
-    pedantic="transmissions with a ``type`` attribute, as in PR2 and Drake, where no reader "
+    pedantic="transmissions with an attribute type, as in PR2 and Drake, where no reader "
     "requires the name",
 )
 def missing_name(description: Description) -> Iterator[Problem]:
