@@ -35,7 +35,7 @@ BALL, WIDER, CLEAR = 0.015, 1.1, 0.95
 it that has to be free, since only some directions are tried. The last two are chosen, no source."""
 
 SAMPLES, DIRECTIONS, BATCH = 400_000, 100, 500
-"""Samples of a surface, directions of the ball from a point, points tried at once; chosen, no
+"""Samples of a surface, directions of the ball from a point, points tried at first; chosen, no
 source."""
 
 CELL = 0.25
@@ -157,12 +157,14 @@ def find_largest(points: Array, away: Array, cell: float, *tests: Test) -> float
     order = np.argsort(-away)
     cells = np.floor(points[order] / cell).astype(np.int64)
     order = order[np.sort(np.unique(cells, axis=0, return_index=True)[1])][: 40 * BATCH]
-    for begin in range(0, len(order), BATCH):
-        some = order[begin : begin + BATCH]
+    count = BATCH
+    while len(order):
+        some, order = order[:count], order[count:]
         for test in tests:
             some = some[test(points[some])] if len(some) else some
         if len(some):
             return float(away[some].max())
+        count *= 2  # most calls are cheap for each point, and costly for each batch
     return 0.0
 
 

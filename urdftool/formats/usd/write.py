@@ -116,7 +116,8 @@ def _write_joints(joints: JointWriter, links: LinkWriter, options: Options, plan
     write_self_collision(links, options, written)
     write_pairs(links, planned.exclusions, options.proofs)
     if planned.exclusions:
-        written.summary.append(f"{len(planned.exclusions)} pairs without contact")
+        count = len(planned.exclusions)
+        written.summary.append(f"{count} {'pair' if count == 1 else 'pairs'} without contact")
     for joint in robot.joints:
         report_unwritten_spring(joint, written)
     if options.target == "isaac":
