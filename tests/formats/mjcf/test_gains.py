@@ -68,6 +68,28 @@ def test_the_gain_of_a_position_servo(effort, load, value, force):
     assert gain.force == (None if force is None else pytest.approx(force))
 
 
+@pytest.mark.parametrize(("carried", "load", "weak"), [(0, 9, 0), (0, 11, 1), (1, 11, 0)])
+def test_a_servo_that_is_too_weak_is_known(carried, load, weak):
+    moved = JointLoad(1.0, 1.0, load, is_carried=bool(carried))
+    assert choose_position_gain("hinge", 10, moved).is_weak == bool(weak)
+
+
+def test_joints_that_are_too_weak_for_the_load_at_home_are_named(urdftool, tmp_path):
+    """A bar of 2 kg, 0.5 m beside its horizontal axis, loads it with 9.8 N·m."""
+    base = '<link name="a"><inertial><mass value="1"/>{}</inertial></link>'
+    arm = '<link name="b"><inertial><origin xyz="0.5 0 0"/><mass value="2"/>{}</inertial></link>'
+    tensor = '<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/>'
+    turn = '<parent link="a"/><child link="b"/><axis xyz="0 1 0"/>'
+    for effort, found in ((9, True), (11, False)):
+        limit = f'<limit lower="-1" upper="1" effort="{effort}" velocity="1"/>'
+        joint = f'<joint name="j" type="revolute">{turn}{limit}</joint>'
+        path = tmp_path / f"r{effort}.urdf"
+        path.write_text(f'<robot name="r">{(base + arm).format(tensor, tensor)}{joint}</robot>')
+        result = urdftool("export", "mjcf", path, "-o", tmp_path / f"{effort}.xml")
+        text = "the load at home is above the effort limit, so that the servo does not hold it: 'j'"
+        assert (text in result.err) == found
+
+
 def test_a_longer_step_has_a_lower_bound():
     short, long = (choose_position_gain("hinge", 1e6, JointLoad(1.0), dt) for dt in (0.002, 0.004))
     assert short.value == pytest.approx(4 * long.value)

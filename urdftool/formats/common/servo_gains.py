@@ -75,6 +75,7 @@ class Gain:
         damping: Damping [N·m·s/rad or N·s/m] of a position servo that is critical while the other
             joints do not move, for a gain that would else diverge at a longer step; None for
             critical damping while they are free.
+        is_weak: Whether the effort limit is below the load at home.
     """
 
     value: float
@@ -82,6 +83,7 @@ class Gain:
     force: float | None = None
     sag: float = 0.0
     damping: float | None = None
+    is_weak: bool = False
 
 
 def choose_position_gain(
@@ -107,6 +109,8 @@ def choose_position_gain(
     force = None if effort else _round(max(value * FULL[kind], 2 * load.force))
     is_stiff = load.is_carried and value > (4 / LONGER) ** 2 * load.free / timestep**2
     damping = _round(2 * math.sqrt(value * load.inertia)) if is_stiff else None
+    if effort and load.force > effort and not load.is_carried:  # by the ground
+        return Gain(value, is_bounded, force, damping=damping, is_weak=True)
     return Gain(value, is_bounded, force, load.force / value, damping)
 
 
@@ -175,12 +179,23 @@ def report_gains(
     sag = assumed[most].sag
     if sag > 0:
         text += f"; at home they sag by at most {sag:.2g} (joint '{most}')"
+    weak = [name for name, gain in assumed.items() if gain.is_weak]
+    if weak:
+        written.advice.append(
+            "the load at home is above the effort limit, so that the servo does not hold it: "
+            f"{_format_listed(weak)}"
+        )
     written.report_loss(
         "gains",
         f"{text}; --actuator-config sets others",
         robot.place,
         severity=Severity.INFO,
-        data={"timestep": timestep, "sag": sag, "joint": most if sag > 0 else ""},
+        data={
+            "timestep": timestep,
+            "sag": sag,
+            "joint": most if sag > 0 else "",
+            "weak": weak,
+        },
     )
 
 
