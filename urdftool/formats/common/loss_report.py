@@ -16,7 +16,7 @@ _RANKED = {"lossy-nonconvex": "hull_ratio"}
 """Codes of losses that most meshes of a robot can have, and the value that ranks them."""
 
 _FEW = 3
-"""Ranked losses of one code that are printed one by one; chosen."""
+"""Ranked losses of one code that are printed one by one; chosen, no source."""
 
 
 def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
