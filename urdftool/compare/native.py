@@ -151,7 +151,8 @@ def _compare(
 ) -> Iterator[Difference]:
     section, tag, name = key
     name = name or section.partition(" ")[2]
-    kind = f"<{tag}>"
+    is_xml = all(one is None or one.is_xml for one in (old, new))
+    kind = f"<{tag}>" if is_xml else tag
     if not section:  # attributes of a part that the robot has
         old, new = (one or NativeElement(None, "", tag, {"name": name}) for one in (old, new))
     if old is None or new is None:
@@ -162,7 +163,7 @@ def _compare(
     held = (old.held or frozenset()) & (new.held or frozenset())
     for change in compare_elements(NATIVE, kind, name, (old, new), tolerance, renamed):
         if change.what.partition("/")[0].lstrip("@") not in held | _CLASSES:
-            yield change
+            yield change if is_xml else replace(change, what=change.what.lstrip("@"))
     if held:  # the values are those of the attributes
         return
     for what, value in old.values.items():

@@ -212,6 +212,7 @@ class NativeElement(Part):
         children: Its child elements.
         values: Values that the format's library computes of it, by name.
         held: Attributes of it that another part of the robot has as values; None if there is none.
+        is_xml: Whether it is an element; otherwise its tag says what it is.
     """
 
     section: str = ""
@@ -221,6 +222,7 @@ class NativeElement(Part):
     children: list[NativeElement] = field(default_factory=list)
     values: dict[str, tuple[float, ...]] = field(default_factory=dict)
     held: frozenset[str] | None = None
+    is_xml: bool = True
 
     @property
     def name(self) -> str:

@@ -1,5 +1,7 @@
 """Robots of a few links, and their stages as plain values."""
 
+import re
+
 import urdftool
 from urdftool.formats.registry import format_named
 
@@ -75,8 +77,10 @@ def stage(*parts, unit=1, up="Z"):
 
 
 def turning(name, first, second, more=""):
-    """Return a revolute joint of a stage."""
-    return f"""    def PhysicsRevoluteJoint "{name}"
+    """Return a revolute joint of a stage, with the schema of a drive whose attributes it has."""
+    axis = re.search(r"drive:(\w+):", more)
+    applied = f' (prepend apiSchemas = ["PhysicsDriveAPI:{axis[1]}"])' if axis else ""
+    return f"""    def PhysicsRevoluteJoint "{name}"{applied}
     {{
         rel physics:body0 = </r/{first}>
         rel physics:body1 = </r/{second}>

@@ -1,5 +1,7 @@
 """What is read from a stage of another tool equals what Newton imports."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -33,6 +35,7 @@ TURNED = (
 def apply(text, *schemas):
     """Apply schemas to a joint."""
     listed = ", ".join(f'"{schema}"' for schema in schemas)
+    text = re.sub(r" \(prepend apiSchemas.*\)\n", "\n", text, count=1)
     return text.replace('"\n', f'" (\n        prepend apiSchemas = [{listed}]\n    )\n', 1)
 
 

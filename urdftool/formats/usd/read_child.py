@@ -12,6 +12,7 @@ from ...source.document import Document, Element
 from ...source.location import Place
 from ..reading import Losses, Opened, Reading
 from .read_mesh import MeshFolder
+from .read_native import add_native
 from .read_open import convert_errors, open_stage
 from .read_shapes import add_shapes
 from .read_stage import Context
@@ -46,8 +47,9 @@ def read_stage(
         root = Element("robot", {"name": robot.name}, None, file, 0)
         document = Document(file, root, [])
         robot.source = Description(shown, document, layers.list_files(), finder)
-        add_tree(context, robot)
+        joints = add_tree(context, robot)
         report_unread(context)
+        add_native(context, robot, joints)
         folder = MeshFolder(mesh_folder, Place(file, 0, 0))
         try:
             add_shapes(context, robot, folder)

@@ -26,6 +26,23 @@ class JointKind(NamedTuple):
     freedom: str = ""
 
 
+class NamedJoint(NamedTuple):
+    """A joint of a stage that is one of the robot, or closes a loop of it.
+
+    Attributes:
+        prim: Its prim.
+        name: Its name in the robot.
+        kind: Its type.
+        start: How the stage shows its child moved in the frame of the joint, as text: three
+            lengths [m] and a quaternion (w, x, y, z); empty at zero.
+    """
+
+    prim: Usd.Prim
+    name: str
+    kind: JointKind
+    start: str = ""
+
+
 def find_kind(context: Context, prim: Usd.Prim) -> JointKind:
     """Determine the type of a joint."""
     if prim.IsA(UsdPhysics.FixedJoint):
@@ -89,7 +106,7 @@ def _read_bounds(context: Context, prim: Usd.Prim, freedom: str = "") -> tuple[f
 
 
 @dataclass(frozen=True)
-class _Units:
+class Units:
     """Names and units of the attributes of a joint.
 
     Attributes:
@@ -109,14 +126,15 @@ class _Units:
     by_radian: float
 
 
-def _find_units(context: Context, joint: Joint, freedom: str) -> _Units:
-    torque = context.mass * context.length * context.length
-    if joint.type == "prismatic":
+def find_units(context: Context, kind: JointKind) -> Units:
+    """Return names and units of the attributes of a joint with one freedom."""
+    freedom, torque = kind.freedom, context.mass * context.length * context.length
+    if kind.type == "prismatic":
         force = context.mass * context.length
         rate = force / context.length
-        return _Units(freedom or "linear", context.length, force, context.mass, rate, rate)
+        return Units(freedom or "linear", context.length, force, context.mass, rate, rate)
     rate = torque * math.degrees(1.0)
-    return _Units(freedom or "angular", math.radians(1.0), torque, torque, rate, torque)
+    return Units(freedom or "angular", math.radians(1.0), torque, torque, rate, torque)
 
 
 def add_motion(context: Context, prim: Usd.Prim, joint: Joint, freedom: str) -> None:
@@ -130,7 +148,7 @@ def add_motion(context: Context, prim: Usd.Prim, joint: Joint, freedom: str) -> 
     """
     if joint.type not in ("revolute", "continuous", "prismatic"):
         return
-    units = _find_units(context, joint, freedom)
+    units = find_units(context, JointKind(joint.type, freedom=freedom))
     lower, upper = _read_bounds(context, prim, freedom)
     effort = _read_effort(context, prim, units)
     velocity = context.get_value(
@@ -157,9 +175,10 @@ def _convert_bound(value: float | None, unit: float) -> float | None:
     return convert_float(value, unit) if value is not None and math.isfinite(value) else None
 
 
-def _read_effort(context: Context, prim: Usd.Prim, units: _Units) -> float | None:
+def _read_effort(context: Context, prim: Usd.Prim, units: Units) -> float | None:
     """Return the largest force or torque, of the drive or of MuJoCo; None without a limit."""
-    effort = context.get_value(prim, f"drive:{units.name}:physics:maxForce")
+    driven = has_drive(prim, units.name)
+    effort = context.get_value(prim, f"drive:{units.name}:physics:maxForce") if driven else None
     lower, upper = (
         context.get_value(prim, f"mjc:actuatorfrcrange:{end}") or 0.0 for end in ("min", "max")
     )
@@ -169,7 +188,7 @@ def _read_effort(context: Context, prim: Usd.Prim, units: _Units) -> float | Non
     return max(abs(lower), abs(upper))
 
 
-def _read_dynamics(context: Context, prim: Usd.Prim, units: _Units) -> Dynamics | None:
+def _read_dynamics(context: Context, prim: Usd.Prim, units: Units) -> Dynamics | None:
     axis = f"physxJointAxis:{units.name}"
 
     def read(others: tuple[str, ...], unit: float, mujoco: str, unit_there: float) -> float | None:
@@ -196,7 +215,7 @@ def _read_dynamics(context: Context, prim: Usd.Prim, units: _Units) -> Dynamics 
     return Dynamics(context.get_written(prim), damping, friction, armature)
 
 
-def _read_mimic(context: Context, prim: Usd.Prim, units: _Units) -> Mimic | None:
+def _read_mimic(context: Context, prim: Usd.Prim, units: Units) -> Mimic | None:
     """Return what a joint follows; Newton comes before PhysX, which comes before MuJoCo."""
     if has_schema(prim, "NewtonMimicAPI") and get_targets(prim, "newton:mimicJoint"):
         enabled = prim.GetAttribute("newton:mimicEnabled")
@@ -240,13 +259,20 @@ def _follow(
     return Mimic(context.get_written(prim), str(stored or leader.GetName()), factor, offset)
 
 
+def has_drive(prim: Usd.Prim, axis: str) -> bool:
+    """Tell whether simulators make a drive of the attributes of an axis, which a schema decides."""
+    return bool(prim.HasAPI(UsdPhysics.DriveAPI, axis))
+
+
 def read_actuator(
     context: Context, prim: Usd.Prim, joint: Joint, freedom: str
 ) -> JointActuator | None:
-    """Return the drive of a joint as an actuator; None if its gains are zero."""
+    """Return the drive of a joint as an actuator; None without one, or if its gains are zero."""
     if joint.type not in ("revolute", "continuous", "prismatic"):
         return None
-    units = _find_units(context, joint, freedom)
+    units = find_units(context, JointKind(joint.type, freedom=freedom))
+    if not has_drive(prim, units.name):
+        return None
     stiffness, damping = (
         convert_float(context.get_value(prim, f"drive:{units.name}:physics:{gain}") or 0.0, rate)
         for gain, rate in (("stiffness", units.force / units.position), ("damping", units.rate))

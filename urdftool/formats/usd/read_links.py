@@ -15,6 +15,10 @@ from .read_stage import NO_TURN, Context, convert_float, has_schema, scale_point
 _COMPUTED = (-math.inf, -math.inf, -math.inf)
 """Center of mass that is not written."""
 
+_ALIKE = 1e-5
+"""Difference of two tensors of one body, relative to the trace, that the rounding of moments and
+axes to 32-bit floats explains. Chosen, no source."""
+
 
 def read_inertial(context: Context, prim: Usd.Prim) -> Inertial | None:
     """Return the mass properties of a body as written, in the frame of its link."""
@@ -47,15 +51,41 @@ def read_inertial(context: Context, prim: Usd.Prim) -> Inertial | None:
 
 def _read_tensor(context: Context, prim: Usd.Prim) -> SymmetricTensor | None:
     """Return ixx, ixy, ixz, iyy, iyz, izz along the axes of the body; None if not written."""
-    if has_schema(prim, "NewtonMassAPI") and prim.GetAttribute("newton:inertia"):
-        six = context.get_vector(prim, "newton:inertia", (0.0,) * 6)
-        context.check_finite(prim, "newton:inertia", six)
-        if any(six):
-            xx, yy, zz, xy, xz, yz = six
-            return xx, xy, xz, yy, yz, zz
+    six = _read_newton_tensor(context, prim)
+    if six is not None:
+        if names := find_contradicting_inertia(context, prim):
+            text = "attributes contradict each other, and the first is read"
+            what = f"{prim.GetName()}: {' and '.join(names)}"
+            context.losses.add("contradiction", text, what, context.get_place(prim, names[1]))
+        return six
+    six = _read_diagonal_tensor(context, prim)
+    if six is None:
+        context.report_loss("inertia", "inertia that simulators compute is not read", prim)
+    return six
+
+
+def find_contradicting_inertia(context: Context, prim: Usd.Prim) -> tuple[str, ...]:
+    """Return the attributes for Newton and for PhysX if their tensors differ; nothing otherwise."""
+    one, two = _read_newton_tensor(context, prim), _read_diagonal_tensor(context, prim)
+    if one is None or two is None:
+        return ()
+    trace = abs(one[0] + one[3] + one[5])
+    largest = max(abs(a - b) for a, b in zip(one, two, strict=True))
+    return ("newton:inertia", "physics:diagonalInertia") if largest > _ALIKE * trace else ()
+
+
+def _read_newton_tensor(context: Context, prim: Usd.Prim) -> SymmetricTensor | None:
+    if not (has_schema(prim, "NewtonMassAPI") and prim.GetAttribute("newton:inertia")):
+        return None
+    six = context.get_vector(prim, "newton:inertia", (0.0,) * 6)
+    context.check_finite(prim, "newton:inertia", six)
+    xx, yy, zz, xy, xz, yz = six
+    return (xx, xy, xz, yy, yz, zz) if any(six) else None
+
+
+def _read_diagonal_tensor(context: Context, prim: Usd.Prim) -> SymmetricTensor | None:
     moments = context.get_vector(prim, "physics:diagonalInertia", (0.0, 0.0, 0.0))
     if not any(moments):
-        context.report_loss("inertia", "inertia that simulators compute is not read", prim)
         return None
     context.check_finite(prim, "physics:diagonalInertia", moments)
     axes = context.get_vector(prim, "physics:principalAxes", NO_TURN)

@@ -20,7 +20,7 @@ from .read_places import Layers
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
 """Quaternion of the identity."""
 
-_ROUNDING = 1e-6
+ROUNDING = 1e-6
 """Relative difference of two 32-bit floats that rounding of one number explains: 8 ulp."""
 
 _UNSCALED = 1e-6
@@ -117,7 +117,7 @@ class Context:
                 found[name] = number
         first = next(iter(found.values()), None)
         for name, number in found.items():
-            if first is not None and not math.isclose(number, first, rel_tol=_ROUNDING):
+            if first is not None and not math.isclose(number, first, rel_tol=ROUNDING):
                 text = "attributes contradict each other, and the first is read"
                 what = f"{prim.GetName()}: {' and '.join(f'{n} {v:g}' for n, v in found.items())}"
                 self.losses.add("contradiction", text, what, self.get_place(prim, name))

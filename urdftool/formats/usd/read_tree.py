@@ -17,12 +17,13 @@ from ...model.pose import (
     compute_dot,
     compute_norm,
     get_origin_at,
+    quaternion_from_rotation,
     rotate,
     rotation_from_quaternion,
 )
 from ...model.world import WORLD
 from ..reading import take_name
-from .read_joints import JointKind, add_motion, find_kind, read_actuator
+from .read_joints import JointKind, NamedJoint, add_motion, find_kind, read_actuator
 from .read_links import read_inertial
 from .read_pairs import add_pairs
 from .read_robot import choose_bodies
@@ -72,8 +73,9 @@ class _Edge:
                      self.first_pose, is_reversed=not self.is_reversed)  # fmt: skip
 
 
-def add_tree(context: Context, robot: Robot) -> None:
-    """Add links, joints, the base, and connections that close loops."""
+def add_tree(context: Context, robot: Robot) -> list[NamedJoint]:
+    """Add links, joints, the base, and connections that close loops; return the joints read."""
+    named: list[NamedJoint] = []
     every = [_read_edge(context, prim) for prim in context.joints]
     found = [edge for edge in every if edge is not None]
     choose_bodies(context, ((one.first, one.second, one.kind.type == "fixed") for one in found))
@@ -101,9 +103,10 @@ def add_tree(context: Context, robot: Robot) -> None:
         prim = context.stage.GetPrimAtPath(path)
         robot.links.append(Link(context.get_written(prim), context.names[path]))
     for edge in tree:
-        _report_apart(context, edge)
+        start = _find_start(context, edge)
         if edge.first or "" in context.names or edge.kind.type != "fixed":
             joint = _make_joint(context, edge, frames, taken)
+            named.append(NamedJoint(edge.prim, joint.name, edge.kind, start))
             robot.joints.append(joint)
             if actuator := read_actuator(context, edge.prim, joint, edge.kind.freedom):
                 robot.joint_actuators.append(actuator)
@@ -118,8 +121,10 @@ def add_tree(context: Context, robot: Robot) -> None:
             origin = get_origin_at(shift.invert(), written)
             robot.frames.append(Frame(written, name, name, "body", origin))
     for edge in loops:
+        named.append(NamedJoint(edge.prim, edge.prim.GetName(), edge.kind))
         robot.closures.append(_make_closure(context, edge))
     add_pairs(context, robot)
+    return named
 
 
 def _name_links(context: Context) -> None:
@@ -294,12 +299,12 @@ def _get_shown_pose(context: Context, edge: _Edge) -> Pose:
     return shown
 
 
-def _report_apart(context: Context, edge: _Edge) -> None:
-    """Report a body whose transform is none that its joint allows."""
+def _find_start(context: Context, edge: _Edge) -> str:
+    """Return where the stage shows a body, and report a place that its joint does not allow."""
     kind, axis = edge.kind.type, edge.kind.axis
-    if kind not in ("fixed", "revolute", "continuous", "prismatic", "ball"):
-        return
     moved = edge.first_pose.invert() @ _get_shown_pose(context, edge) @ edge.second_pose
+    if kind not in ("fixed", "revolute", "continuous", "prismatic", "ball"):
+        return _format_start(moved)
     along = compute_dot(moved.translation, axis) if kind == "prismatic" else 0.0
     off = [part - along * a for part, a in zip(moved.translation, axis, strict=True)]
     kept = {"ball": (), "revolute": (axis,), "continuous": (axis,)}.get(kind, _DIRECTIONS)
@@ -307,6 +312,16 @@ def _report_apart(context: Context, edge: _Edge) -> None:
     if math.hypot(*off) > _APART or turned > _TURNED:
         text = "bodies are not where their joint holds them, to which a simulator moves them"
         context.report_loss("joint-apart", text, edge.prim)
+    return _format_start(moved)
+
+
+def _format_start(moved: Pose) -> str:
+    """Return a pose as text; empty if it is the identity but for the rounding of 32-bit floats."""
+    turned = max(math.dist(rotate(moved.rotation, axis), axis) for axis in _DIRECTIONS)
+    if compute_norm(moved.translation) <= _APART and turned <= _TURNED:
+        return ""
+    numbers = (*moved.translation, *quaternion_from_rotation(moved.rotation))
+    return " ".join(f"{number:.6g}" for number in numbers)
 
 
 def _join_frames(

@@ -7,6 +7,7 @@ import re
 from pxr import Sdf, Usd, UsdPhysics
 
 from ...diagnostic import Severity
+from .read_native import has_default
 from .read_stage import Context
 
 _NAMESPACES = re.compile(r"(physics|physx\w*|newton|mjc|drive|limit|state|urdf|omniphysics)$")
@@ -29,7 +30,7 @@ _HARMLESS = re.compile(
     r"|physics:(startsAsleep|velocity|angularVelocity|simulationOwner|collisionEnabled)"
     r"|.*([sS]olver|[sS]leep|[sS]tabilization|[iI]teration|[hH]ull|report).*"
 )
-"""Names of settings, and of values that no simulator uses."""
+"""Names of settings, of states at the start, and of what drives are set to at the start."""
 
 _SELF = re.compile(r"newton:selfCollisionEnabled|physxArticulation:enabledSelfCollisions")
 """Names of the settings of collisions of a robot with itself."""
@@ -46,7 +47,7 @@ def report_unread(context: Context) -> None:
                 found.setdefault(name, prim)
     without: dict[str, Usd.Prim] = {}
     for name, prim in found.items():
-        if _is_default(prim, name):
+        if has_default(prim, name):
             continue
         if _SELF.fullmatch(name):
             if prim.GetAttribute(name).Get() is False and not context.is_ours:
@@ -54,7 +55,7 @@ def report_unread(context: Context) -> None:
             continue
         place = context.get_place(prim, name)
         if _HARMLESS.fullmatch(name):
-            text = "settings, and attributes that no simulator uses, are not read"
+            text = "settings, and states and targets at the start, are not read"
             context.losses.add("setting", text, name, place, Severity.INFO)
         else:
             context.losses.add("attribute", "attributes are not read", name, place)
@@ -66,12 +67,6 @@ def report_unread(context: Context) -> None:
             context.report_loss("kinematic", "kinematic bodies are read as dynamic ones", prim)
     _report_variants(context)
     _report_units(context)
-
-
-def _is_default(prim: Usd.Prim, name: str) -> bool:
-    """Tell whether an attribute has the value that it has without being set."""
-    definition = prim.GetPrimDefinition().GetAttributeDefinition(name)
-    return bool(definition) and definition.GetFallbackValue() == prim.GetAttribute(name).Get()
 
 
 def _report_variants(context: Context) -> None:
