@@ -63,10 +63,11 @@ def command(
         urdftool diff arm.urdf.xacro prefix:=left_ arm.urdf.xacro prefix:=right_
         urdftool diff main:arm.urdf arm.urdf --format markdown
 
-    Exit code 1: the robots differ.
+    Exit code 1: the robots differ, or a part was not read and may differ.
     """  # noqa: D301 -- click reads the escape
     from ..compare.differences import compare
     from ..compare.tolerance import TOLERANCE
+    from ..compare.unread import list_unseen
     from ..output import write_result
     from ..report import compare as report
 
@@ -77,24 +78,27 @@ def command(
     a = _read(console, one, package, package_path)
     b = _read(console, two, package, package_path)
     changes = list(compare(a, b, tolerance=limit))
+    unread = list(list_unseen(a, b))
     names = one[0], two[0]
     if style == "json":
-        text = report.to_json(names, changes, limit)
+        text = report.to_json(names, changes, limit, unread)
     elif style == "markdown":
-        text = report.format_markdown(names, changes)
+        text = report.format_markdown(names, changes, unread)
     else:
         text = report.format_text(
             changes, colors=console.has_colors(to_file=output not in (None, "-"))
         )
     inputs = [file.path for robot in (a, b) if robot.source for file in robot.source.files]
     write_result(text, output, inputs=inputs)
-    console.print_note(report.summarize(names, changes))
+    for note in report.list_notes(unread):
+        console.print_note(note)
+    console.print_note(report.summarize(names, changes, unread))
     if changes and a.format != b.format:
         console.print_note(
             "the files have different formats; 'urdftool verify' compares what they mean, without "
             "names of files and frames that were added"
         )
-    return int(bool(changes))
+    return int(bool(changes or unread))
 
 
 def _split_sides(words: tuple[str, ...]) -> tuple[Side, Side]:

@@ -265,8 +265,10 @@ def mirror_joint(joint: Joint, flip: Array) -> Joint:
     """Return the mirror image of a joint, with the same positions; see :func:`mirror_link`."""
     sign = 1.0 if joint.type == "prismatic" else -1.0
     x, y, z = (float(v) for v in sign * flip[:3, :3] @ np.array(_scale_axis(joint, 1.0).xyz))
-    axis = replace(_scale_axis(joint, 1.0), xyz=(x, y, z)) if joint.has_axis else joint.axis
-    return replace(joint, origin=_mirror_origin(joint.origin, flip), axis=axis)
+    axis = replace(_scale_axis(joint, 1.0), xyz=(x, y, z)) if joint.has_direction else joint.axis
+    pitch = joint.thread_pitch and -joint.thread_pitch  # a right-handed thread becomes left-handed
+    origin = _mirror_origin(joint.origin, flip)
+    return replace(joint, origin=origin, axis=axis, thread_pitch=pitch)
 
 
 def move_frame(robot: Robot, move: FrameMove) -> Robot:
@@ -310,7 +312,7 @@ def _move_joint(joint: Joint, link: str, pose: Array, back: Array) -> Joint:
     if joint.type in HINGES and np.linalg.norm(np.cross(axis, pose[:3, 3])) > 1e-9:
         raise ConfigError(f"the declared frame of link '{link}' is not on its joint's axis")
     x, y, z = (float(value) for value in back[:3, :3] @ axis)
-    moved = replace(_scale_axis(joint, 1.0), xyz=(x, y, z)) if joint.has_axis else joint.axis
+    moved = replace(_scale_axis(joint, 1.0), xyz=(x, y, z)) if joint.has_direction else joint.axis
     return replace(joint, origin=_move_origin(joint.origin, np.eye(4), pose), axis=moved)
 
 

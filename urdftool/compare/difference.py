@@ -10,7 +10,7 @@ from ..model.provenance import NOWHERE
 from ..source.location import Place
 from .check import Check
 from .rows import Row
-from .uncompared import MESHES, Uncompared, explain_row
+from .uncompared import COUNTED, Uncompared, explain_row
 
 EXISTENCE = "existence"
 """Property of a part that only one robot has."""
@@ -220,8 +220,9 @@ class Comparison:
 
     @property
     def is_equal(self) -> bool:
-        """Tell whether nothing but conventions differs, and every mesh could be read."""
-        return not self.is_different and all(one.kind != MESHES for one in self.uncompared)
+        """Tell whether nothing but conventions differs, and all was read that a row compares."""
+        counted = (one for one in self.uncompared if one.row not in self.skipped)
+        return not self.is_different and all(one.kind not in COUNTED for one in counted)
 
     def make_checks(self) -> list[Check]:
         """Return a row of the table for each property that was compared."""

@@ -66,7 +66,19 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Dif
     if a.format != b.format:
         yield from _compare_whole(a, b, tolerance, _OF_ALL_FORMATS)
     elif a.xml is None:
+        yield from _compare_pose(a, b, tolerance)
         yield from _compare_whole(a, b, tolerance, _OF_THE_WHOLE)
+
+
+def _compare_pose(a: Robot, b: Robot, tolerance: float) -> Iterator[Difference]:
+    """Yield the difference of the poses of both robots in their worlds, such as of a model."""
+    if a.base is None or b.base is None or a.tree.root is None or b.tree.root is None:
+        return
+    one, two = make_restored_pose(a.base.origin), make_restored_pose(b.base.origin)
+    if not is_same_pose(one, two, tolerance):
+        values, note = (collect_pose_values(one), collect_pose_values(two)), format_motion(one, two)
+        name, sides = b.tree.root.name, (a.base, b.base)
+        yield describe_change("base", "link", name, "pose in the world", values, sides, note=note)
 
 
 def _compare_whole(
@@ -208,7 +220,7 @@ def compare_joints(
         )
         note = format_motion(one, two)
         yield describe_change("frames", "joint", b.name, "origin", values, sides, note=note)
-    if a.has_axis and b.has_axis:
+    if a.has_direction and b.has_direction:
         x, y = _get_axis(a), _get_axis(b)
         if not are_close(x, y, max(tolerance, 1e-12)):
             opposite = are_close(x, (-y[0], -y[1], -y[2]), max(tolerance, 1e-12))

@@ -14,6 +14,7 @@ from .mechanisms import ROW_OF, compare_mechanisms, list_parts_by_kind
 from .native import are_of_one_format, compare_native, list_in_bodies
 from .pair import Pair
 from .rows import BLOCKS, LOOPS, NATIVE
+from .unread import compare_unread
 
 _COMPARED = frozenset(ROW_OF) - {"frame", "camera", "mounted sensor", "plugin"}
 """Kinds of parts; the others are compared in the frames of bodies, or by class."""
@@ -35,8 +36,10 @@ _READ_IN_GAZEBO = _READ | {"joint"}
 def compare_equipment(pair: Pair, comparison: Comparison) -> None:
     """Compare actuators, contact pairs, configurations and plugins of two files of one format.
 
-    Of a URDF and an SDF, loops and what blocks have in addition are compared.
+    What a reader did not read is recorded. Of a URDF and an SDF, loops and what blocks have in
+    addition are compared.
     """
+    compare_unread(pair, comparison)
     rows = [row for row in comparison.tolerances if row in _ROWS]
     a, b = pair.a.robot, pair.b.robot
     shared = are_of_one_format(a, b)

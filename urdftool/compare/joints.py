@@ -118,7 +118,7 @@ def compare_joint(pair: Pair, match: JointMatch, comparison: Comparison) -> floa
         _add(comparison, match, "tree", "type", (one.type, two.type), "", math.inf)
         return 1.0
     sign = 1.0
-    if one.has_axis:
+    if one.has_direction:
         sign = _compare_axis(match, comparison)
         _compare_limits(pair, match, sign, comparison)
     _compare_dynamics(match, comparison)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..mechanics.tensor import SymmetricTensor, rotate_tensor
-from ..model.elements import Collision, Inertial, Link, Material, Robot, Visual
+from ..model.elements import Collision, Inertial, Link, Material, Robot, UnknownShape, Visual
 from ..model.materials import resolve_material
 from ..model.pose import Pose, make_pose, make_restored_pose, rpy_from_rotation
 from ..model.shapes import describe_shape
@@ -134,7 +134,8 @@ def _compare_shape(
     row, name, sides = f"{kind}s", link.name, (a, b)
     shapes = describe_shape(a.geometry), describe_shape(b.geometry)
     if not is_same(*shapes, tolerance):
-        yield describe_change(row, "link", name, f"{kind}{number} geometry", shapes, sides)
+        shown = _drop_equal(*shapes) if isinstance(b.geometry, UnknownShape) else shapes
+        yield describe_change(row, "link", name, f"{kind}{number} geometry", shown, sides)
     one, two = make_restored_pose(a.origin), make_restored_pose(b.origin)
     if not is_same_pose(one, two, tolerance):
         poses, note = (collect_pose_values(one), collect_pose_values(two)), format_motion(one, two)
@@ -144,6 +145,13 @@ def _compare_shape(
         looks = _get_look(robots[0], a.material), _get_look(robots[1], b.material)
         if looks[0] != looks[1]:
             yield describe_change("colors", "link", name, f"{kind}{number} material", looks, sides)
+
+
+def _drop_equal(one: dict[str, Any], two: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return two shapes without the values that both have, such as the points of a polyline."""
+    equal = {key for key, value in one.items() if two.get(key) == value} - {"shape"}
+    before, after = ({k: v for k, v in of.items() if k not in equal} for of in (one, two))
+    return before, after
 
 
 def collect_pose_values(pose: Pose) -> dict[str, Any]:

@@ -161,16 +161,26 @@ def _compare(
             yield describe_presence(NATIVE, kind, name, (old, new))
         return
     held = (old.held or frozenset()) & (new.held or frozenset())
+    is_named = False
     for change in compare_elements(NATIVE, kind, name, (old, new), tolerance, renamed):
         if change.what.partition("/")[0].lstrip("@") not in held | _CLASSES:
+            is_named = True
             yield change if is_xml else replace(change, what=change.what.lstrip("@"))
-    if held:  # the values are those of the attributes
+    if held and is_named:  # the values are those of the attributes
         return
-    for what, value in old.values.items():
-        other = new.values.get(what, ())
+    for what in _list_values(old, new):
+        value, other = old.values.get(what, ()), new.values.get(what, ())
         if not _is_same(what, value, other, tolerance):
             shown = _show(what, value), _show(what, other)
             yield describe_change(NATIVE, kind, name, what.replace("_", " "), shown, (old, new))
+
+
+def _list_values(old: NativeElement, new: NativeElement) -> list[str]:
+    """Return the names of values of two elements, of both if only one of them is held elsewhere."""
+    names = dict.fromkeys((*old.values, *new.values))
+    if (old.held is None) == (new.held is None):
+        return list(names)
+    return [name for name in names if name in old.values and name in new.values]
 
 
 def _show(what: str, value: Sequence[float]) -> object:

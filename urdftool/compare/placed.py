@@ -17,10 +17,14 @@ from ..model.elements import (
     Mesh,
     Plane,
     Sphere,
+    UnknownShape,
     Visual,
 )
 from ..model.shapes import describe_shape
 from .frames import describe_pose
+
+_SHOWN = 4
+"""Largest number of values of a shape that are printed; chosen, no source."""
 
 
 class Placed(NamedTuple):
@@ -59,18 +63,39 @@ def describe_what(kind: str, placed: Placed) -> str:
     return f"{kind} '{placed.shape.name}'" if placed.shape.name else kind
 
 
-def describe(placed: Placed) -> str:
-    """Describe a shape with its size and its pose in the link."""
+def describe(placed: Placed, other: Placed | None = None) -> str:
+    """Describe a shape with its size and its pose in the link.
+
+    Args:
+        placed: The shape.
+        other: One that it is compared with: of shapes that are not read only what differs is named.
+    """
     geometry = placed.geometry
     lengths: list[float] = []
     if isinstance(geometry, Mesh):
         text = f"mesh {geometry.filename.rpartition('/')[2]}"
         if geometry.scale != (1, 1, 1):
             text, lengths = f"{text} ×", list(geometry.scale)
+    elif isinstance(geometry, UnknownShape):
+        text = _describe_content(geometry, other and other.geometry)
+    elif isinstance(geometry, Plane):
+        text = "plane"
+        lengths = list(geometry.size or ()) if isinstance(placed.shape, Visual) else []
     else:
         facts = describe_shape(geometry)
         text = facts.pop("shape")
-        if not isinstance(geometry, Plane):
-            lengths = [length for value in facts.values() for length in value]
+        lengths = [length for value in facts.values() for length in value]
     at = describe_pose(get_origin_matrix(placed.shape.origin))
     return " ".join((text, *(f"{length:.6g}" for length in lengths), "at", at))
+
+
+def _describe_content(geometry: UnknownShape, other: Geometry | None) -> str:
+    """Return the tag of a shape that is not read, and the first values that another lacks."""
+    known = (isinstance(other, UnknownShape) and other.content) or {}
+    texts = []
+    for name, value in (geometry.content or {}).items():
+        if known.get(name) != value:
+            shown = value if isinstance(value, str) else " ".join(f"{n:.6g}" for n in value)
+            texts.append(f"{name} {shown}")
+    rest = f", … ({len(texts) - _SHOWN} more)" if len(texts) > _SHOWN else ""
+    return f"{geometry.tag} {', '.join(texts[:_SHOWN])}{rest}".strip()

@@ -88,7 +88,7 @@ class Agreement:
 
     @property
     def is_equal(self) -> bool:
-        """Tell whether no pair differs in more than conventions, and every mesh could be read."""
+        """Tell whether no pair differs in more than conventions, and all that counts was read."""
         return all(comparison.is_equal for comparison in self.pairs.values())
 
     @property

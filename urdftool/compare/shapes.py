@@ -20,6 +20,7 @@ from ..model.elements import (
     Plane,
     Robot,
     Sphere,
+    UnknownShape,
     Visual,
 )
 from ..model.gltf_axes import is_gltf
@@ -33,7 +34,8 @@ from .mesh_measure import Measure, measure_distance
 from .pair import Match, Pair, add_presence, locate
 from .placed import Placed, describe, describe_what, get_size
 from .settings import compare_surfaces
-from .uncompared import MESHES, Uncompared
+from .uncompared import MESHES, UNREAD, Uncompared
+from .unknown_shapes import explain_unknown, has_equal_content
 
 Rgba = tuple[float, ...]
 
@@ -173,6 +175,8 @@ def _measure(state: _Comparing, x: Placed, y: Placed) -> float:
         return np.inf
     if isinstance(x.geometry, Mesh) and isinstance(y.geometry, Mesh):
         return _measure_meshes(state, x, y)
+    if not has_equal_content(state.pair, state.row, (x.geometry, y.geometry), state.tolerance):
+        return np.inf
     size, size2 = (get_size(p.geometry) for p in (x, y))
     if size is None or size2 is None:
         same = get_shape_name(x.geometry) == get_shape_name(y.geometry)
@@ -212,6 +216,10 @@ def _record_unread(state: _Comparing, x: Placed, y: Placed) -> None:
     """Record the meshes of two equal shapes that were not read, but for one file of both."""
     robots, meshes = (state.pair.a.robot, state.pair.b.robot), state.pair.meshes
     one, two = x.geometry, y.geometry
+    if isinstance(one, UnknownShape) and isinstance(two, UnknownShape):
+        name = f"<{one.tag}> of link '{x.link.name}'"
+        if reason := explain_unknown(state.pair, (one, two)):
+            state.comparison.record_uncompared(Uncompared(state.row, UNREAD, name, reason))
     if not isinstance(one, Mesh) or not isinstance(two, Mesh):
         return
     same_axes = _get_up(robots[0]) == _get_up(robots[1])
@@ -368,7 +376,7 @@ def _add(state: _Comparing, x: Placed, y: Placed, amount: float, note: str) -> N
         "link",
         (x.link.name, y.link.name),
         describe_what(kind, x),
-        (describe(x), describe(y)),
+        (describe(x, y), describe(y, x)),
         "m",
         amount,
         (locate(x.shape, x.link), locate(y.shape, y.link)),

@@ -8,6 +8,12 @@ from typing import NamedTuple
 MESHES = "mesh not read", "meshes not read"
 """Kind of the meshes whose surface was not measured: nothing is known of the shape then."""
 
+UNREAD = "part not read", "parts not read"
+"""Kind of what a reader did not read, and two files do not have in equal words."""
+
+COUNTED = (MESHES, UNREAD)
+"""Kinds that leave it unknown whether two robots are equal."""
+
 COLORED = "mesh with colors of its own", "meshes with colors of their own"
 """Kind of the meshes whose file has colors and images, which are not read."""
 

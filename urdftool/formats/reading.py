@@ -71,15 +71,29 @@ def find_chosen(name: str, known: Sequence[str], what: str, place: Place) -> int
     raise ModelError(f"the file has {count} {what} '{name}'; it has {names}{help_}", at=place)
 
 
+class _Part(NamedTuple):
+    """A part that is left out; see :meth:`Losses.add`."""
+
+    name: str
+    place: Place
+    content: str | None
+
+
 class Losses:
     """Collection of what a reader leaves out, merged by code."""
 
     def __init__(self) -> None:
         """Create an empty collection."""
-        self._found: dict[str, tuple[Severity, str, list[tuple[str, Place]]]] = {}
+        self._found: dict[str, tuple[Severity, str, list[_Part]]] = {}
 
     def add(
-        self, code: str, what: str, name: str, place: Place, severity: Severity = Severity.WARNING
+        self,
+        code: str,
+        what: str,
+        name: str,
+        place: Place,
+        severity: Severity = Severity.WARNING,
+        content: str | None = None,
     ) -> None:
         """Record a part that is left out.
 
@@ -89,9 +103,11 @@ class Losses:
             name: Name of the part; may be empty.
             place: Location in the source.
             severity: ``INFO`` if the part affects neither motion nor contact.
+            content: All that is written of the part, in equal words for equal parts; None if
+                unknown. Two files of one format that have a part in equal words do not differ.
         """
         _, _, parts = self._found.setdefault(code, (severity, what, []))
-        parts.append((name, place))
+        parts.append(_Part(name, place, content))
 
     def make_findings(self) -> list[Finding]:
         """Return a finding for each kind, with the number of parts and the first names."""
@@ -99,11 +115,16 @@ class Losses:
             Finding(
                 f"unread-{code}",
                 severity,
-                f"{what}: {_count(name for name, _ in parts)}",
-                parts[0][1],
+                f"{what}: {_count(part.name for part in parts)}",
+                parts[0].place,
                 code,
-                parts[0][0],
-                data={"count": len(parts), "names": [name for name, _ in parts]},
+                parts[0].name,
+                data={
+                    "what": what,
+                    "count": len(parts),
+                    "names": [part.name for part in parts],
+                    "contents": [part.content for part in parts],
+                },
             )
             for code, (severity, what, parts) in self._found.items()
         ]

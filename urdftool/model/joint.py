@@ -134,6 +134,11 @@ class Joint(Part):
         return self.type in ("revolute", "continuous", "prismatic", "planar")
 
     @property
+    def has_direction(self) -> bool:
+        """Tell whether the type moves along or about an axis, also if URDF does not have it."""
+        return self.has_axis or self.type == "screw"
+
+    @property
     def is_limited(self) -> bool:
         """Tell whether the type requires limits."""
         return self.type in ("revolute", "prismatic")

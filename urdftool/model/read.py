@@ -49,6 +49,7 @@ from .native import list_block_elements
 from .numbers import number as number
 from .numbers import parse_numbers as parse_numbers
 from .read_settings import add_settings
+from .shapes import collect_content
 from .world_settings import read_options
 
 _T = TypeVar("_T")
@@ -167,7 +168,7 @@ def _read_geometry(element: Element | None) -> Geometry | None:
         return None
     shape = element.children[0]
     read = _SHAPES.get(shape.tag)
-    return UnknownShape(shape, shape.tag) if read is None else read(shape)
+    return UnknownShape(shape, shape.tag, collect_content(shape)) if read is None else read(shape)
 
 
 def _read_material(element: Element) -> Material:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from collections import Counter, deque
 from dataclasses import dataclass, fields, replace
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, Union
 
 from .part import ZERO, Part, Vector
+
+if TYPE_CHECKING:
+    from ..source.document import Element
 
 
 @dataclass(slots=True)
@@ -78,9 +83,13 @@ class UnknownShape(Part):
 
     Attributes:
         tag: Tag of its element, or its type, in the source.
+        content: What the source writes of it, as numbers and texts by name; None if unknown.
+        files: Names of the files in the content, which are not read.
     """
 
     tag: str = ""
+    content: dict[str, Any] | None = None
+    files: tuple[str, ...] = ()
 
 
 Geometry = Union[  # noqa: UP007 -- runtime alias
@@ -113,11 +122,42 @@ def get_shape_name(geometry: Geometry) -> str:
 
 def describe_shape(geometry: Geometry | None) -> dict[str, Any]:
     """Return geometry as data: its type, and its lengths [m] as tuples, or its file."""
-    if geometry is None or isinstance(geometry, UnknownShape):
-        return {"shape": None if geometry is None else geometry.tag}
+    if geometry is None:
+        return {"shape": None}
+    if isinstance(geometry, UnknownShape):
+        return {"shape": geometry.tag, **(geometry.content or {})}
     facts: dict[str, Any] = {"shape": get_shape_name(geometry)}
     for field in fields(geometry):
         value = getattr(geometry, field.name)
         if field.name != "provenance":
             facts[field.name] = (value,) if isinstance(value, int | float) else value
     return facts
+
+
+def collect_content(element: Element) -> dict[str, Any]:
+    """Return the attributes and texts in an element by path: numbers as tuples, others as text."""
+    found: dict[str, Any] = {}
+    todo = deque([(element, "")])
+    while todo:
+        one, path = todo.popleft()
+        for name, text in one.attributes.items():
+            found[f"{path}@{name}"] = _parse_numbers(text)
+        if path and one.text.strip():
+            found[path] = _parse_numbers(one.text)
+        counts: Counter[str] = Counter()
+        for child in one.children:
+            counts[child.tag] += 1
+            count = counts[child.tag]
+            step = child.tag if count == 1 else f"{child.tag}({count})"
+            todo.append((child, f"{path}/{step}" if path else step))
+    return found
+
+
+def _parse_numbers(text: str) -> tuple[float, ...] | str:
+    """Return the numbers of a text; the text if it has others than finite ones."""
+    words = text.split()
+    try:
+        numbers = tuple(map(float, words))
+    except ValueError:
+        numbers = (math.nan,)
+    return numbers if all(map(math.isfinite, numbers)) else " ".join(words)

@@ -8,6 +8,7 @@ from itertools import groupby
 from typing import Any
 
 from ..compare.difference import EXISTENCE, THERE, Difference
+from ..compare.uncompared import Uncompared
 from ..control_characters import escape_controls
 from .counted import format_count
 from .findings import Painter
@@ -53,9 +54,11 @@ def describe_what(change: Difference) -> str:
     return "added" if change.values[0] is None else "removed"
 
 
-def format_markdown(names: tuple[str, str], changes: Sequence[Difference]) -> str:
+def format_markdown(
+    names: tuple[str, str], changes: Sequence[Difference], unread: Sequence[Uncompared] = ()
+) -> str:
     """Format the changes as a Markdown table for a pull request."""
-    lines = [f"**{_escape_cell(summarize(names, changes))}**"]
+    lines = [f"**{_escape_cell(summarize(names, changes, unread))}**"]
     if changes:
         lines += ["", "| part | what | before | after | |", "|---|---|---|---|---|"]
     for title, group in _list_by_part(changes):
@@ -78,15 +81,28 @@ def _escape_cell(text: str) -> str:
     return marked.replace("&", "&amp;")
 
 
-def to_json(names: tuple[str, str], changes: Sequence[Difference], tolerance: float) -> str:
-    """Format the changes as one object; lengths [m], angles [rad], masses [kg]."""
+def to_json(
+    names: tuple[str, str],
+    changes: Sequence[Difference],
+    tolerance: float,
+    unread: Sequence[Uncompared] = (),
+) -> str:
+    """Format the changes as one object; lengths [m], angles [rad], masses [kg].
+
+    Args:
+        names: Both files, as given.
+        changes: The differences.
+        tolerance: Tolerance of numbers.
+        unread: Parts that were not read, and so not compared.
+    """
     content = {
         "version": 1,
         "before": names[0],
         "after": names[1],
         "tolerance": tolerance,
-        "equal": not changes,
+        "equal": not changes and not unread,
         "changes": [_record(change) for change in changes],
+        "not_compared": [{"name": part.name, "reason": part.reason} for part in unread],
     }
     return format_json(content, 1) + "\n"
 
@@ -102,13 +118,27 @@ def _record(change: Difference) -> dict[str, Any]:
     return record
 
 
-def summarize(names: tuple[str, str], changes: Sequence[Difference]) -> str:
-    """Summarize the number of changes in one line."""
+def summarize(
+    names: tuple[str, str], changes: Sequence[Difference], unread: Sequence[Uncompared] = ()
+) -> str:
+    """Summarize the number of changes, and of parts that were not read, in one line."""
     pair = f"{escape_controls(names[0])} → {escape_controls(names[1])}"
+    count = len({part.name for part in unread})
+    rest = f"{format_count(count, 'part')} not compared" if count else ""
     if not changes:
-        return f"{pair}: no differences (meshes by their names, not by content)"
+        text = f"no differences in what was read; {rest}" if rest else "no differences"
+        return f"{pair}: {text} (meshes by their names, not by content)"
     parts = {(change.kind, change.new_name) for change in changes}
-    return f"{pair}: {format_count(len(changes), 'change')} in {format_count(len(parts), 'part')}"
+    text = f"{format_count(len(changes), 'change')} in {format_count(len(parts), 'part')}"
+    return f"{pair}: {text}" + (f"; {rest}" if rest else "")
+
+
+def list_notes(unread: Iterable[Uncompared]) -> list[str]:
+    """Return a line for each kind of parts that were not read, with their names."""
+    found: dict[str, dict[str, None]] = {}
+    for part in unread:
+        found.setdefault(part.reason, {})[part.name] = None
+    return [f"not compared: {', '.join(some)}: {reason}" for reason, some in found.items()]
 
 
 def _list_by_part(changes: Iterable[Difference]) -> Iterator[tuple[str, Iterator[Difference]]]:

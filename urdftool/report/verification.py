@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from ..compare.difference import Comparison, name_part
 from ..compare.rows import NOT_COMPARED
 from ..compare.several import Agreement, Disagreement
+from ..compare.uncompared import MESHES, UNREAD
 from .counted import format_count
 from .json_text import format_json
 from .tables import render_table
@@ -181,12 +182,19 @@ def _has_compared(agreement: Agreement) -> bool:
     return any(check.verdict not in ("none", "not compared") for check in checks)
 
 
+def _name_unread(agreement: Agreement) -> str:
+    """Name the kinds of what was not read and counts: meshes, other parts, or both."""
+    kinds = {part.kind for one in agreement.pairs.values() for part in one.uncompared}
+    words = {MESHES: "meshes", UNREAD: "parts that are compared"}
+    return " and ".join(word for kind, word in words.items() if kind in kinds)
+
+
 def _describe_verdict(agreement: Agreement) -> str:
     """Describe the result of robots without a difference that was found."""
     if not _has_compared(agreement):
         return "nothing was compared"
     if not agreement.is_equal:
-        return "no difference was found, but meshes were not read"
+        return f"no difference was found, but {_name_unread(agreement)} were not read"
     return "equal in every compared property"
 
 

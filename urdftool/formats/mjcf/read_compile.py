@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from hashlib import sha256
 from typing import Any
 
 from ...dependencies import Dependencies
@@ -45,6 +46,8 @@ class Compiled:
         keys: Name and generalized positions of each keyframe.
         warnings: Warnings of the compiler.
         values: Values of the elements of each section of ``KINDS``, in their order.
+        poses: Generalized positions of the free and ball joints in each keyframe.
+        discards_visuals: Whether MuJoCo removes visuals, which are kept here.
         error: Reason why it does not compile; empty if it does.
         error_line: Line of the error; 0 if unknown.
         error_file: Name of the file that cannot be read.
@@ -55,6 +58,8 @@ class Compiled:
     keys: list[tuple[str, list[float]]]
     warnings: list[str]
     values: dict[str, list[dict[str, tuple[float, ...]]]] = field(default_factory=dict)
+    poses: list[tuple[float, ...]] = field(default_factory=list)
+    discards_visuals: bool = False
     error: str = ""
     error_line: int = 0
     error_file: str = ""
@@ -101,6 +106,7 @@ def _compile(
             warnings.simplefilter("always")
             options = {"include": dict(models)} if models else {}
             spec = mujoco.MjSpec.from_string(text, assets=assets, **options)
+            discards = bool(spec.compiler.discardvisual)
             _keep_all(spec)
             model = spec.compile()
     except (ValueError, RuntimeError, mujoco.FatalError) as error:
@@ -111,7 +117,8 @@ def _compile(
         reason = " ".join(_LINE.sub("", said).split()).strip(" ,")
         for name in set(_ASSET.findall(reason)):
             reason = reason.replace(name, paths.get(name, name))
-        return Compiled("", {}, [], texts, {}, reason, int(line[1]) if line else 0)
+        at = int(line[1]) if line else 0
+        return Compiled("", {}, [], texts, error=reason, error_line=at)
     texts += [str(warning.message) for warning in caught]
     rows = {kind: read(spec, model, mujoco) for kind, read in _READERS.items()}
     for row in (*rows["mesh"], *rows["material"]):
@@ -120,7 +127,22 @@ def _compile(
     names = [key.name for key in spec.keys]
     keys = [(names[i], model.key_qpos[i].tolist()) for i in range(model.nkey)]
     values = {tag: _list_numbers_of(spec, model, *kind) for tag, kind in KINDS.items()}
-    return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(texts)), values)
+    poses = _list_poses(model, mujoco)
+    return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(texts)), values, poses, discards)
+
+
+def _list_poses(model: Any, mujoco: Any) -> list[tuple[float, ...]]:
+    """Return the generalized positions of free and ball joints in each keyframe."""
+    sizes = {int(mujoco.mjtJoint.mjJNT_FREE): 7, int(mujoco.mjtJoint.mjJNT_BALL): 4}
+    spans = [
+        (int(at), sizes[int(kind)])
+        for kind, at in zip(model.jnt_type, model.jnt_qposadr, strict=True)
+        if int(kind) in sizes
+    ]
+    return [
+        tuple(float(value) for at, size in spans for value in row[at : at + size])
+        for row in model.key_qpos
+    ]
 
 
 _PLACES = re.compile(r"(id|adr|num|geom[12]|plugin|signature|length0|acc0|weight0)$")
@@ -214,6 +236,8 @@ def _list_geoms(spec: Any, model: Any, mujoco: Any) -> list[Row]:
         row = {**_make_row(geom), **_list_values(model, "geom", i, names)}
         row["type"] = _get_enum_name(mujoco.mjtGeom(model.geom_type[i]), "mjGEOM_")
         row["paired"] = i in paired
+        if row["type"] == "hfield":
+            row["content"] = _describe_heightfield(model, row["dataid"])
         rows.append(row)
     return rows
 
@@ -224,8 +248,35 @@ def _list_meshes(spec: Any, model: Any, _: Any) -> list[Row]:
         row = {**_make_row(mesh), **_list_values(model, "mesh", i, ("pos", "quat"))}
         row["file"] = mesh.file
         row |= {name: getattr(mesh, name).tolist() for name in ("scale", "refpos", "refquat")}
+        row["content"] = _describe_mesh(model, i)
         rows.append(row)
     return rows
+
+
+def _describe_mesh(model: Any, index: int) -> dict[str, Any]:
+    """Return counts, extent [m] and a digest of the points and faces of a mesh."""
+    first, count = model.mesh_vertadr[index], model.mesh_vertnum[index]
+    start, faces = model.mesh_faceadr[index], model.mesh_facenum[index]
+    points = model.mesh_vert[first : first + count]
+    data = points.tobytes() + model.mesh_face[start : start + faces].tobytes()
+    return {
+        "points": (float(count),),
+        "faces": (float(faces),),
+        "extent": tuple(map(float, points.max(axis=0) - points.min(axis=0))),
+        "digest": sha256(data).hexdigest()[:12],
+    }
+
+
+def _describe_heightfield(model: Any, index: int) -> dict[str, Any]:
+    """Return sizes [m], numbers of rows and columns, and a digest of the heights."""
+    first = model.hfield_adr[index]
+    shape = int(model.hfield_nrow[index]), int(model.hfield_ncol[index])
+    heights = model.hfield_data[first : first + shape[0] * shape[1]]
+    return {
+        "size": tuple(map(float, model.hfield_size[index])),
+        "grid": tuple(map(float, shape)),
+        "digest": sha256(heights.tobytes()).hexdigest()[:12],
+    }
 
 
 def _list_materials(spec: Any, model: Any, _: Any) -> list[Row]:

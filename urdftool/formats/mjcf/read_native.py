@@ -19,11 +19,14 @@ from ...source.location import SourceFile
 from .read_compile import Row
 from .read_context import Context
 from .read_defaults import Defaults
-from .read_native_table import CLASSES, COPIED, KINDS, MERGED, PARTS, READ, READ_IN
+from .read_native_table import CLASSES, COPIED, HELD_VALUES, KINDS, MERGED, PARTS, READ, READ_IN
 from .read_tree import VELOCITY
 
 _CREATING = frozenset(("attach", "replicate", "composite", "flexcomp"))
 """Elements that create elements of other sections, with names of their own."""
+
+_POSES = "positions of free and ball joints"
+"""Name of the values of a keyframe that the robot does not hold."""
 
 _OF_EXPORT = "robot_name"
 """Name of the text in ``<custom>`` that an export writes."""
@@ -72,6 +75,18 @@ def _mark_held(robot: Robot) -> None:
             element.held = _OPTIONS | {"flag"}
         elif element.place in held:
             element.held = READ_IN.get(element.section)
+            element.values = _drop_held(element)
+
+
+def _drop_held(element: NativeElement) -> dict[str, tuple[float, ...]]:
+    """Return the values of an element that no other part of the robot holds."""
+    counts = HELD_VALUES.get(element.section, {})
+    kept = {
+        name: value[counts[name] :] if name in counts else value
+        for name, value in element.values.items()
+        if counts.get(name) != 0
+    }
+    return {name: value for name, value in kept.items() if value}
 
 
 def _parse_text(context: Context) -> _Text:
@@ -122,6 +137,9 @@ def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
         if tag in KINDS and len(made) == len(values):
             for element, value in zip(made, values, strict=True):
                 element.values = value
+        if tag == "keyframe" and len(made) == len(context.compiled.poses):
+            for element, pose in zip(made, context.compiled.poses, strict=True):
+                element.values = {_POSES: pose} if "qpos" in element.attributes and pose else {}
         if tag not in KINDS or len(made) == len(values):
             yield from made
     for child in text.roots[0].children:
@@ -180,12 +198,24 @@ def _list_parts(context: Context, text: _Text) -> Iterator[NativeElement]:
             attributes = root.resolve(element)
             written = context.get_place(row)
             kept = {a: v for a, v in attributes.items() if a in (*moving, *shown)}
-            if kept and name:
-                yield NativeElement(written, "", tag, {"name": name, **kept})
+            if kept:
+                yield _make_part(context, tag, name, row, kept)
             for attribute in _list_unread(context, tag, row, attributes):
                 code = "setting" if attribute in moving else "display"
                 code = code if attribute in kept and name else "attribute"
-                _report(context, code, f"{attribute} of <{tag}> {row['name']}".strip(), written)
+                label = f"{attribute} of <{tag}> {row['name']}".strip()
+                _report(context, code, label, written, attributes.get(attribute))
+
+
+def _make_part(
+    context: Context, tag: str, name: str, row: Row, kept: dict[str, str]
+) -> NativeElement:
+    """Return attributes of a part; an export copies those of a part with a name only."""
+    written = context.get_place(row)
+    if name:
+        return NativeElement(written, "", tag, {"name": name, **kept})
+    link = context.links[row["bodyid"]] if "bodyid" in row else ""
+    return NativeElement(written, f"link {link}", tag, kept)
 
 
 def _list_unread(context: Context, tag: str, row: Row, attributes: dict[str, str]) -> Iterator[str]:
@@ -198,7 +228,8 @@ def _list_unread(context: Context, tag: str, row: Row, attributes: dict[str, str
     low, high = row.get("actfrcrange", (0.0, 0.0))
     if tag == "joint" and low != -high:
         text = "bounds of the force at a joint that are not symmetric are read as the smaller"
-        context.losses.add("force-range", text, row["name"], context.get_place(row).place)
+        place, content = context.get_place(row).place, f"{low} {high}"
+        context.losses.add("force-range", text, row["name"], place, content=content)
 
 
 def _get_root(element: Element) -> Element:
@@ -241,12 +272,14 @@ _LAST_GROUP = 3
 _SHOWN_ONLY = frozenset(("springref", "group", "user", "material", "rgba", "width", "objtype"))
 
 
-def _report(context: Context, code: str, name: str, written: Written) -> None:
+def _report(
+    context: Context, code: str, name: str, written: Written, content: str | None = None
+) -> None:
     what, severity = _TEXTS[code]
     if code == "attribute" and name.split()[0] in _SHOWN_ONLY:
         severity = Severity.INFO
         code, what = "display-attribute", "attributes for display and users are not read"
-    context.losses.add(code, what, name, written.place, severity)
+    context.losses.add(code, what, name, written.place, severity, content)
 
 
 def _report_section(context: Context, section: Element, setting: str) -> None:

@@ -53,7 +53,7 @@ _SENSOR = ("name", "objtype", "objname", "site", "joint", "body", "geom", "camer
 _ACTUATOR = (
     *("name", "class", "joint", "jointinparent", "gear", "ctrlrange", "ctrllimited", "forcerange"),
     *("forcelimited", "kp", "kv", "dampratio", "inheritrange", "gainprm", "biasprm", "gaintype"),
-    *("biastype", "timeconst"),
+    "biastype",
 )
 
 READ_IN = {
@@ -68,6 +68,18 @@ READ_IN = {
 }  # fmt: skip
 """Attributes that the robot holds of the elements of a section; other sections it lacks."""
 
+HELD_VALUES = {
+    "actuator": {
+        "actuator_gear": 0, "actuator_ctrlrange": 0, "actuator_ctrllimited": 0,
+        "actuator_forcerange": 0, "actuator_forcelimited": 0, "actuator_gaintype": 0,
+        "actuator_biastype": 0, "actuator_trntype": 0, "actuator_gainprm": 1,
+        "actuator_biasprm": 3,
+    },
+    "sensor": {"sensor_type": 0, "sensor_objtype": 0, "sensor_reftype": 0},
+    "equality": {"eq_type": 0, "eq_objtype": 0, "eq_active0": 0, "eq_data": 10},
+}  # fmt: skip
+"""Values of the elements of a section that the robot holds: how many of each, 0 for all."""
+
 READ = {
     "body": (*_PLACED, "name", "childclass", "mocap", "gravcomp"),
     "joint": (
@@ -80,8 +92,7 @@ READ = {
         *_PLACED,
         *("name", "class", "type", "size", "mass", "density", "mesh", "material", "rgba"),
         *("contype", "conaffinity", "condim", "friction", "solref", "solimp", "solmix", "margin"),
-        *("gap", "group", "priority", "fluidshape", "fluidcoef", "shellinertia", "fitscale"),
-        *("hfield", "adhesion"),
+        *("gap", "group", "priority", "shellinertia", "fitscale", "hfield"),
     ),
     "site": (*_PLACED, "name", "class"),
     "camera": (*_PLACED, "name", "class", "fovy", "resolution", "mode", "target"),
@@ -97,7 +108,7 @@ PARTS = {
     "body": (("mocap", "sleep", "user"), ()),
     "joint": (("actuatorfrcrange", "actuatorfrclimited"), ("group", "user")),
     "freejoint": ((), ("group", "user")),
-    "geom": ((), ()),
+    "geom": (("fluidshape", "fluidcoef", "adhesion"), ()),
     "site": ((), ("group", "size", "type", "rgba", "user")),
     "camera": ((), ("mode", "target", "ipd", "projection", "user")),
     "light": ((), ("mode", "target", "attenuation", "exponent", "ambient", "active", "intensity",

@@ -48,11 +48,12 @@ def add_shapes(context: Context, robot: Robot) -> None:
         geometry, frame = _read_geometry(context, row, written)
         origin = get_origin_at(context.shifts[row["bodyid"]] @ frame, written)
         name = row["name"] or None
-        collides = row["contype"] or row["conaffinity"] or row["paired"]
+        collides = bool(row["contype"] or row["conaffinity"] or row["paired"])
         material, alpha = _read_material(context, row, written)
         visible = row["group"] < _HIDDEN_FROM and (alpha > 0 or not collides)
         if visible:
             link.visuals.append(Visual(written, name, origin, geometry, material))
+            _report_discarded(context, collides, written, row["name"])
         if collides:
             surface = _read_surface(row, written)
             link.collisions.append(Collision(written, name, origin, replace(geometry), surface))
@@ -60,6 +61,14 @@ def add_shapes(context: Context, robot: Robot) -> None:
         if not visible and not collides:
             text = "geoms that are neither seen nor touched count in the mass only"
             context.losses.add("hidden-geom", text, row["name"], written.place, Severity.INFO)
+
+
+def _report_discarded(context: Context, collides: bool, written: Written, name: str) -> None:
+    if context.compiled.discards_visuals and not collides:
+        text = "visuals that MuJoCo removes (discardvisual of <compiler>) are read"
+        context.losses.add(
+            "discarded-visual", text, name, written.place, Severity.INFO, content=name
+        )
 
 
 def _report_pair(context: Context, row: Row, written: Written) -> None:
@@ -100,7 +109,7 @@ def _read_geometry(context: Context, row: Row, written: Written) -> tuple[Geomet
     if kind == "plane":
         return Plane(written, (2 * a, 2 * b) if a and b else None), at
     context.losses.add(kind, f"geoms of type {kind} are not read", row["name"], written.place)
-    return UnknownShape(written, kind), at
+    return UnknownShape(written, kind, row.get("content")), at
 
 
 def _read_mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, Pose]:
@@ -114,7 +123,7 @@ def _read_mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, 
     if not mesh["file"]:
         text = "meshes without a file are not read"
         context.losses.add("mesh", text, mesh["name"], context.get_place(mesh).place)
-        return UnknownShape(written, "mesh"), at
+        return UnknownShape(written, "mesh", mesh["content"]), at
     x, y, z = mesh["scale"]
     w, *ijk = mesh["refquat"]
     turned = IDENTITY
@@ -123,7 +132,7 @@ def _read_mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, 
         if not x == y == z:
             text = "meshes with refquat and unequal scales are not read"
             context.losses.add("mesh-scale", text, mesh["name"], context.get_place(mesh).place)
-            return UnknownShape(written, "mesh"), at
+            return UnknownShape(written, "mesh", mesh["content"]), at
     p, q, r = rotate(turned.rotation, tuple(mesh["refpos"]))
     moved = Pose(turned.rotation, (-x * p, -y * q, -z * r))
     return Mesh(context.get_place(mesh), mesh["file"], (x, y, z)), at @ moved

@@ -15,7 +15,7 @@ from ...compare.check import Check
 from ...errors import UrdftoolError
 from ...geometry.image_file import open_image
 from ...geometry.mesh import Part
-from ...model.elements import Capsule, Geometry, Link, Mesh, Robot, Visual
+from ...model.elements import Capsule, Geometry, Link, Mesh, Robot, UnknownShape, Visual
 from ...model.materials import find_shown_material
 from ...model.shapes import describe_shape
 from ..common.losses import DeclaredLosses, list_look_names
@@ -110,8 +110,8 @@ def _list_geoms(compiled: Compiled, link: Link) -> Iterator[int]:
 
 def _has_size(geometry: Geometry | None) -> bool:
     """Tell whether a shape has a size above zero; a mesh always does."""
-    if geometry is None or isinstance(geometry, Mesh):
-        return geometry is not None
+    if geometry is None or isinstance(geometry, Mesh | UnknownShape):
+        return isinstance(geometry, Mesh)
     lengths = describe_shape(geometry)
     sizes = [
         value for key in ("size", "radii", "radius", "length") for value in lengths.get(key) or ()

@@ -20,7 +20,13 @@ _NAMED = ("tendon", "contact")
 def select_native(source: Robot, options: Options) -> list[NativeElement]:
     """Return the elements of a source that its export copies: all but replaced actuators."""
     copied = has_copied_actuators(source, options)
-    return [e for e in list_native(source) if copied or e.section != "actuator"]
+    return [e for e in list_native(source) if _is_copied(e, has_actuators=copied)]
+
+
+def _is_copied(element: NativeElement, *, has_actuators: bool) -> bool:
+    """Tell whether an export copies an element; it does not in parts of links without a name."""
+    is_actuator = element.section == "actuator"
+    return has_actuators if is_actuator else not element.section.startswith("link ")
 
 
 def list_force_ranges(robot: Robot) -> dict[str, tuple[float, float]]:

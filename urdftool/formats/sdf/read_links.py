@@ -33,11 +33,18 @@ from ...model.provenance import Written
 from ...model.read_settings import read_sdf_settings
 from ...model.sensors import read_sensor
 from ...model.settings import OF_LINKS, SURFACE, Value
+from ...model.shapes import collect_content
 from ...source.document import Element
 from ..reading import Losses
 from .read_materials import read_material
 from .read_scope import Scope
-from .read_values import number, read_numbers, read_pose, read_text, read_vector
+from .read_values import number, read_numbers, read_pose, read_vector
+
+_MESH_NAMES = ("uri", "filename")
+"""Elements of a mesh with the name of its file, the first one first."""
+
+_FILES = frozenset((*_MESH_NAMES, "diffuse", "normal"))
+"""Elements of shapes with names of files; the last two are images of a heightmap."""
 
 _TENSOR = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
 
@@ -61,10 +68,16 @@ class Context:
     poses: dict[str, Pose] = field(default_factory=dict)
 
     def record_loss(
-        self, code: str, text: str, element: Element, severity: Severity = Severity.WARNING
+        self,
+        code: str,
+        text: str,
+        element: Element,
+        severity: Severity = Severity.WARNING,
+        unread: Element | None = None,
     ) -> None:
-        """Report an element that is not read."""
-        self.losses.add(code, text, element.get("name") or "", element.place, severity)
+        """Report an element that is not read, or of which another one below it is not."""
+        content = str(collect_content(element if unread is None else unread))
+        self.losses.add(code, text, element.get("name") or "", element.place, severity, content)
 
 
 def read_link(context: Context, scope: Scope, prefix: str, element: Element) -> Link:
@@ -109,8 +122,9 @@ def _read_inertial(context: Context, scope: Scope, prefix: str, link: Element) -
     if (element.get("auto") or "").lower() in ("true", "1"):
         context.record_loss("auto-inertia", "inertia from shapes (auto) is not computed", link)
         return None
-    if element.find_child("fluid_added_mass") is not None:
-        context.record_loss("added-mass", "added mass of a fluid is not read", link)
+    added = element.find_child("fluid_added_mass")
+    if added is not None:
+        context.record_loss("added-mass", "added mass of a fluid is not read", link, unread=added)
     origin = get_origin_at(compute_part_pose(context, scope, prefix, link, element), written)
     tensor = element.find_child("inertia")
     values = {name: number(tensor, name, value) for name, value in _TENSOR.items()}
@@ -182,7 +196,13 @@ def _read_geometry(context: Context, holder: Element) -> tuple[Geometry | None, 
         made = Cone if tag == "cone" else Cylinder
         return made(written, radius, length), IDENTITY
     context.record_loss(f"shape-{tag}", f"geometry <{tag}> is not read", holder)
-    return UnknownShape(written, tag), IDENTITY
+    return _make_unknown_shape(context, element, tag), IDENTITY
+
+
+def _make_unknown_shape(context: Context, element: Element, tag: str) -> UnknownShape:
+    """Return a shape that is not read, with all that is written of it."""
+    files = [_read_uri(context, e) for e in element.walk() if e.tag in _FILES and e.text.strip()]
+    return UnknownShape(Written(element.place), tag, collect_content(element), tuple(files))
 
 
 def _read_plane(element: Element, written: Written) -> tuple[Plane, Pose]:
@@ -206,13 +226,21 @@ def _compute_rotation(normal: Vector, element: Element) -> tuple[Vector, Vector,
 
 
 def _read_mesh(context: Context, element: Element, written: Written) -> Geometry:
-    uri = read_text(element, "uri") or read_text(element, "filename")
+    named = (element.find_child(tag) for tag in _MESH_NAMES)
+    uri = next((one for one in named if one is not None and one.text.strip()), None)
     if element.find_child("submesh") is not None:
         context.record_loss("submesh", "parts of mesh files (submesh) are not read", element)
-        return UnknownShape(written, "submesh")
+        return _make_unknown_shape(context, element, "submesh")
+    file = "" if uri is None else _read_uri(context, uri)
+    return Mesh(written, file, read_vector(element, "scale", (1.0, 1.0, 1.0)))
+
+
+def _read_uri(context: Context, element: Element) -> str:
+    """Return the name of a file; a relative one of an included file as an absolute path."""
+    uri = element.text.strip()
     if "://" not in uri and element.file.path != context.main:
-        uri = os.path.join(os.path.dirname(os.path.abspath(element.file.path)), uri)
-    return Mesh(written, uri, read_vector(element, "scale", (1.0, 1.0, 1.0)))
+        return os.path.join(os.path.dirname(os.path.abspath(element.file.path)), uri)
+    return uri
 
 
 def _add_sensor(

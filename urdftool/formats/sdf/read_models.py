@@ -174,7 +174,7 @@ class Models:
                 text = "grippers are not read"
                 self.losses.add("gripper", text, child.get("name") or "", child.place)
         if read_flag(element, "self_collide") and scope.parent is not None:
-            self.losses.add("self-collide", SELF_COLLIDE, scope.name, element.place)
+            self.losses.add("self-collide", SELF_COLLIDE, scope.name, element.place, content="true")
 
     def _list_ancestors(self, scope: Scope | None) -> list[Scope]:
         above = []

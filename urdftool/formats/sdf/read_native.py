@@ -9,6 +9,7 @@ from ...model.mechanism import NativeElement
 from ...model.native import HELD_PATHS, NESTED, OTHER_TAGS, make_loop, make_native, make_rest
 from ...model.provenance import Written
 from ...model.settings import OF_LINKS, OF_ROBOT
+from ...model.shapes import collect_content
 from ...source.document import Element
 from .read_links import Context, compute_part_pose
 from .read_scope import Scope
@@ -120,7 +121,7 @@ def _report_unread(context: Context, element: Element, kind: str) -> None:
             continue
         code, what, severity = _REPORTED.get(kind, _ELEMENT)
         name = f"{path} of <{kind}> {element.get('name') or ''}".strip()
-        context.losses.add(code, what, name, child.place, severity)
+        context.losses.add(code, what, name, child.place, severity, str(collect_content(child)))
 
 
 def _has_below(path: str, other: str) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from hashlib import sha256
 
 import numpy as np
 from pxr import Gf, Usd, UsdGeom, UsdPhysics
@@ -202,7 +203,15 @@ class Context:
         self, code: str, what: str, prim: Usd.Prim, severity: Severity = Severity.WARNING
     ) -> None:
         """Record what the robot does not hold of a prim."""
-        self.losses.add(code, what, prim.GetName(), self.get_place(prim), severity)
+        place, content = self.get_place(prim), _digest(prim)
+        self.losses.add(code, what, prim.GetName(), place, severity, content)
+
+
+def _digest(prim: Usd.Prim) -> str:
+    """Return a digest of the type, the attributes and the relationships of a prim."""
+    found = [f"{one.GetName()} {one.Get()}" for one in prim.GetAuthoredAttributes()]
+    found += [f"{one.GetName()} {one.GetTargets()}" for one in prim.GetAuthoredRelationships()]
+    return sha256("\n".join((str(prim.GetTypeName()), *found)).encode()).hexdigest()
 
 
 def _is_body(prim: Usd.Prim) -> bool:

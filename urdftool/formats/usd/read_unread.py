@@ -38,17 +38,19 @@ _SELF = re.compile(r"newton:selfCollisionEnabled|physxArticulation:enabledSelfCo
 
 def report_unread(context: Context) -> None:
     """Report each attribute of physics that is not read once, with the first prim that has it."""
-    found: dict[str, Usd.Prim] = {}
+    found: dict[str, list[Usd.Prim]] = {}
     for prim in context.iterate_prims():
         for attribute in prim.GetAuthoredAttributes():
             name = attribute.GetName()
             space, colon, _ = name.partition(":")
             if colon and _NAMESPACES.match(space) and not _READ.fullmatch(name):
-                found.setdefault(name, prim)
+                found.setdefault(name, []).append(prim)
     without: dict[str, Usd.Prim] = {}
-    for name, prim in found.items():
-        if has_default(prim, name):
+    for name, having in found.items():
+        prims = [one for one in having if not has_default(one, name)]
+        if not prims:
             continue
+        prim = prims[0]
         if _SELF.fullmatch(name):
             if prim.GetAttribute(name).Get() is False and not context.is_ours:
                 without.setdefault(str(prim.GetPath()), prim)
@@ -58,7 +60,9 @@ def report_unread(context: Context) -> None:
             text = "settings, and states and targets at the start, are not read"
             context.losses.add("setting", text, name, place, Severity.INFO)
         else:
-            context.losses.add("attribute", "attributes are not read", name, place)
+            values = [f"{one.GetPath()} {one.GetAttribute(name).Get()}" for one in prims]
+            content = "; ".join(values)
+            context.losses.add("attribute", "attributes are not read", name, place, content=content)
     for prim in without.values():
         text = "that parts of the robot do not collide with each other is not read"
         context.report_loss("self-collision", text, prim, Severity.INFO)

@@ -1,0 +1,147 @@
+"""What a reader did not read of the parts that a row compares."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from ..model.elements import Robot, UnknownShape
+from .difference import Comparison
+from .pair import Pair
+from .rows import LOOPS, NATIVE
+from .uncompared import UNREAD, Uncompared
+
+
+class _Row(NamedTuple):
+    """Rows that a kind of unread parts concerns.
+
+    Attributes:
+        names: The rows.
+        section: Section of MJCF whose elements are compared as they are written, and these parts
+            with them; empty for none.
+    """
+
+    names: tuple[str, ...]
+    section: str = ""
+
+
+_ACTUATORS = _Row(("actuators",), "actuator")
+_TENDONS = _Row((NATIVE,), "tendon")
+_EQUALITIES = _Row((NATIVE,), "equality")
+
+_ROWS = {
+    "activation": _ACTUATORS,
+    "actuator": _ACTUATORS,
+    "gain": _ACTUATORS,
+    "coupling": _Row(("tree",), "equality"),
+    "equality-tendon": _EQUALITIES,
+    "equality-flex": _EQUALITIES,
+    "equality-flexvert": _EQUALITIES,
+    "tendon": _TENDONS,
+    "contact-pair": _Row(("contact pairs",), "contact"),
+    "created": _Row((NATIVE,)),
+    "attribute": _Row((NATIVE,)),
+    "flex": _Row(("collisions", "visuals")),
+    "skin": _Row(("visuals",)),
+    "plugin": _Row((NATIVE,)),
+    "force-range": _Row(("limits",)),
+    "discarded-visual": _Row(("visuals", "colors", "textures")),
+    "added-mass": _Row(("inertia", "mass matrix")),
+    "auto-inertia": _Row(("mass", "center of mass", "inertia", "mass matrix", "gravity")),
+    "inertial": _Row(("inertia",)),
+    "gearbox": _Row(("tree",)),
+    "self-collide": _Row(("link flags",)),
+    "mass": _Row(("mass", "mass matrix", "gravity")),
+    "center-of-mass": _Row(("center of mass", "mass matrix", "gravity")),
+    "inertia": _Row(("inertia", "mass matrix")),
+    "disabled-joint": _Row((LOOPS,)),
+}
+"""Rows by the code of a loss of reading, after ``unread-``; shapes that are not read and images
+are recorded where they are compared.
+"""
+
+_PLUGINS_IN_ROW = "sdf"
+"""Format whose plugins have a row of their own."""
+
+
+def compare_unread(pair: Pair, comparison: Comparison) -> None:
+    """Record which rows of a comparison concern parts that a reader did not read."""
+    for part in list_unread(pair.a.robot, pair.b.robot):
+        comparison.record_uncompared(part)
+
+
+def list_unread(a: Robot, b: Robot) -> Iterator[Uncompared]:
+    """Yield the parts that a reader did not read, unless both files have them in equal words.
+
+    Nothing is yielded for what is compared as the elements of one format.
+    """
+    if is_one_text(a, b):
+        return
+    sides = _collect(a, b), _collect(b, a)
+    for code in dict.fromkeys((*sides[0], *sides[1])):
+        one, two = (side.get(code, Counter()) for side in sides)
+        is_known = a.format == b.format and all(text is not None for _, _, text in (*one, *two))
+        left = (one - two) + (two - one) if is_known else one + two
+        for name, reason, _ in left:
+            for row in _ROWS[code].names:
+                yield Uncompared(row, UNREAD, name, reason)
+
+
+def list_unseen(a: Robot, b: Robot) -> Iterator[Uncompared]:
+    """Yield the parts that a reader did not read, with shapes of which nothing is known."""
+    yield from list_unread(a, b)
+    if is_one_text(a, b):
+        return
+    for robot in (a, b):
+        for link, shape in robot.shapes:
+            geometry = shape.geometry
+            if isinstance(geometry, UnknownShape) and geometry.content is None:
+                name = f"<{geometry.tag}> of link '{link.name}'"
+                yield Uncompared("collisions", UNREAD, name, "what it contains is not read")
+
+
+_Part = tuple[str, str, str | None]
+"""Name of an unread part, why it is not read, and what is written of it; None if unknown."""
+
+
+def _collect(robot: Robot, other: Robot) -> dict[str, Counter[_Part]]:
+    """Return the unread parts of a robot by the code of their loss.
+
+    Args:
+        robot: The robot.
+        other: The robot with which it is compared.
+    """
+    found: dict[str, Counter[_Part]] = {}
+    for loss in robot.unread:
+        code = loss.code.removeprefix("unread-")
+        if code in _ROWS and not _is_compared_natively(_ROWS[code], robot, other):
+            if (code, robot.format) != ("plugin", _PLUGINS_IN_ROW):
+                found[code] = Counter(_list_parts(loss.data))
+    return found
+
+
+def _list_parts(data: Mapping[str, Any]) -> Iterator[_Part]:
+    """Yield the parts in the data of a loss of reading."""
+    for name, content in zip(data["names"], data["contents"], strict=True):
+        yield name or "without a name", data["what"], content
+
+
+def _is_compared_natively(row: _Row, robot: Robot, other: Robot) -> bool:
+    """Tell whether two robots of one format have the elements of a row as they are written."""
+    if robot.format != other.format or not row.section:
+        return False
+    return any(element.section == row.section for element in robot.native)
+
+
+def is_one_text(a: Robot, b: Robot) -> bool:
+    """Tell whether two robots are read from equal files in one folder, with equal arguments."""
+    if a.source is None or b.source is None or a.source.arguments != b.source.arguments:
+        return False
+    one, two = (
+        [(os.path.dirname(os.path.realpath(file.path)), file.data) for file in robot.source.files]
+        for robot in (a, b)
+        if robot.source is not None
+    )
+    return one == two
