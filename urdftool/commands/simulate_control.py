@@ -87,13 +87,17 @@ def take_robot_of_scene(console: Console, robot: Robot) -> Robot:
 
 
 def report_replaced(console: Console, robot: Robot) -> None:
-    """Print what an MJCF sets that the simulation has of its own: options, drives, constraints.
+    """Print what a description sets that the simulation has of its own: world, drives, constraints.
 
     Args:
         console: Output for notes.
-        robot: Robot; one of another format has none of them.
+        robot: Robot; one that was read from URDF has none of them.
     """
+    from ..model.world_settings import list_changed
+
     names = []
+    if robot.format != "mjcf":  # whose options are named below
+        names = [f"{setting.name} of the world" for setting, _ in list_changed(robot)]
     for section in _REPLACED:
         elements = [element for element in robot.native if element.section == section]
         if section == "option":

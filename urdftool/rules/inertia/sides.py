@@ -205,7 +205,6 @@ def _spread(link: Link) -> float:
     WARNING,
     effects={"mujoco, pybullet, pinocchio": "take it as written"},
     formats=ANY_FORMAT,
-    pedantic="links that move the center of mass of the robot by less than 0.1 mm",
 )
 def com_not_mirrored(
     robot: Robot,
@@ -291,7 +290,6 @@ def com_not_mirrored(
             f"xyz=\"{of_twin}\" of '{twin.name}', but {why}; {remedy}",
             at=origin,
             severity=INFO if moved < slight else None,
-            pedantic=moved < slight,
             data={
                 "twin": twin.name,
                 "axis": "xyz"[axis],
