@@ -75,9 +75,9 @@ changed, and judged by a fourth reader, who ran the readers for each file that t
 the seven wrong findings are of kinds that were changed afterwards. Seeds 81001 and 81002 ("new")
 were drawn of 82 robots of 13 packages that no earlier sample has, after cases of rules that were
 mostly noise had been put off by default, and judged by a fifth reader. Five of the six wrong
-findings are true, but say that MuJoCo uses the convex hull of a mesh, which it does not find; the
-sixth says that it rejects a mesh which `<compiler meshdir>` lets it find. Later, some more cases
-were put off by default.
+findings are true but for an effect: MuJoCo does not find the mesh whose convex hull it is to use.
+The sixth expects MuJoCo to reject a mesh which `<compiler meshdir>` lets it find. Later, some more
+cases were put off by default.
 """
 RULES = """\
 ## Rules with findings that were wrong
