@@ -14,20 +14,8 @@ ROBOT = """<robot name="cart">
     <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
     <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
   </link>
-  <link name="{name}">
-    <inertial>
-      <mass value="0.01"/>
-      <inertia ixx="1e-5" ixy="0" ixz="0" iyy="2e-5" iyz="0" izz="2e-5"/>
-    </inertial>
-    <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
-  </link>
-  <link name="other">
-    <inertial>
-      <mass value="0.01"/>
-      <inertia ixx="1e-5" ixy="0" ixz="0" iyy="2e-5" iyz="0" izz="2e-5"/>
-    </inertial>
-    <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
-  </link>
+  <link name="{name}">{light}</link>
+  <link name="other">{light}</link>
   <joint name="slide" type="prismatic">
     <parent link="hand"/><child link="{name}"/><origin xyz="0 0 1"/>
     <limit lower="0" upper="0.04" effort="20" velocity="0.2"/>
@@ -38,12 +26,19 @@ ROBOT = """<robot name="cart">
   </joint>
 </robot>
 """
+LIGHT = """
+    <inertial>
+      <mass value="0.01"/>
+      <inertia ixx="1e-5" ixy="0" ixz="0" iyy="2e-5" iyz="0" izz="2e-5"/>
+    </inertial>
+    <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
+"""
 RULE = "missing-collision"
 
 
 def _check(tmp_path, name="finger", comment="", **options):
     file = tmp_path / "cart.urdf"
-    file.write_text(ROBOT.format(name=name, comment=comment))
+    file.write_text(ROBOT.format(light=LIGHT, name=name, comment=comment))
     return list(check(file, **options))
 
 

@@ -133,7 +133,7 @@ def make_world(element: Element) -> NativeElement:
     made = NativeElement(Written(element.place, element), AROUND, AROUND)
     kept = (_leave_out_held(AROUND, AROUND, child, child.tag) for child in element.children)
     made.children = [child for child in kept if child is not None]
-    made.held = frozenset()  # a file of a model alone is no other robot
+    made.held = frozenset()  # a file without a world can hold the same robot
     return made
 
 
