@@ -14,7 +14,8 @@ for the proof of an export:
 - ``matching``: joints without a common name, matched by the structure of the tree;
 - ``frames``, ``origins``: frames and origins of joints of one robot in the other;
 - ``pair``: both robots, with the names of the parts of one in the other;
-- ``joints``, ``inertia``, ``shapes``, ``dynamics``: comparison of each property.
+- ``joints``, ``inertia``, ``shapes``, ``dynamics``: comparison of each property; ``worlds``: that
+  of worlds, and of which rows they decide; ``unread``: which rows concern what was not read.
 
 As descriptions, part by part, for ``diff``, whose differences are rows of the same table:
 

@@ -34,13 +34,9 @@ from .pair import Match, Pair, add_presence, locate, make_pair
 from .plugins import compare_plugins
 from .rows import ROWS, Row
 from .sensors import compare_sensors
-from .settings import (
-    compare_flags,
-    compare_joint_settings,
-    compare_robot_flags,
-    compare_worlds,
-)
+from .settings import compare_flags, compare_joint_settings, compare_robot_flags
 from .shapes import compare_shapes
+from .worlds import compare_worlds
 
 _MANY = 3
 """Number of differences from which another frame is considered."""

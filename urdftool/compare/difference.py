@@ -201,7 +201,8 @@ class Comparison:
 
     def explain_skipped(self, row: str) -> str:
         """Return why a row, or what part of it, was not compared; empty if it was."""
-        return self.skipped.get(row) or explain_row(self.uncompared, row)
+        reasons = self.skipped.get(row, ""), explain_row(self.uncompared, row)
+        return "; ".join(reason for reason in reasons if reason)
 
     def list_skipped(self) -> dict[str, str]:
         """Return why rows, or what parts of them, were not compared."""
@@ -221,8 +222,7 @@ class Comparison:
     @property
     def is_equal(self) -> bool:
         """Tell whether nothing but conventions differs, and all was read that a row compares."""
-        counted = (one for one in self.uncompared if one.row not in self.skipped)
-        return not self.is_different and all(one.kind not in COUNTED for one in counted)
+        return not self.is_different and all(one.kind not in COUNTED for one in self.uncompared)
 
     def make_checks(self) -> list[Check]:
         """Return a row of the table for each property that was compared."""

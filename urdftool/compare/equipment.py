@@ -14,6 +14,7 @@ from .mechanisms import ROW_OF, compare_mechanisms, list_parts_by_kind
 from .native import are_of_one_format, compare_native, list_in_bodies
 from .pair import Pair
 from .rows import BLOCKS, LOOPS, NATIVE
+from .uncompared import OPEN, Uncompared
 from .unread import compare_unread
 
 _COMPARED = frozenset(ROW_OF) - {"frame", "camera", "mounted sensor", "plugin"}
@@ -51,6 +52,8 @@ def compare_equipment(pair: Pair, comparison: Comparison) -> None:
         if shared:
             _compare_loops(pair, comparison)
             _compare_native(pair, comparison)
+        else:
+            _record_loops(pair, comparison)
         return
     if pair.formats[0] == "urdf":  # its actuators are elements of blocks
         others = [row for row in rows if row not in (BLOCKS, "sensors")]
@@ -68,6 +71,15 @@ def _compare_native(pair: Pair, comparison: Comparison) -> None:
     comparison.record_parts(NATIVE, pair.a.robot.native, pair.b.robot.native)
     for difference in compare_native(*list_in_bodies(pair), _TOLERANCE, _get_names(pair)):
         comparison.add(difference)
+
+
+def _record_loops(pair: Pair, comparison: Comparison) -> None:
+    """Record the loops of robots whose formats describe them in other ways."""
+    for robot in (pair.a.robot, pair.b.robot):
+        for loop in robot.closures:
+            if loop.is_active:
+                name = f"{loop.name or f'{loop.parent} – {loop.child}'} ({loop.place})"
+                comparison.record_uncompared(Uncompared(LOOPS, OPEN, name, "of this file"))
 
 
 def _compare_loops(pair: Pair, comparison: Comparison) -> None:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from ..model.elements import Link, Robot
-from ..model.native import find_world
 from ..model.numbers import describe_content, number
 from ..model.part import Part
 from ..model.settings import (
@@ -19,7 +18,6 @@ from ..model.settings import (
     Settings,
     Value,
 )
-from ..model.world_settings import BY_FORMAT
 from .difference import Comparison, Difference, describe_change
 from .joints import JointMatch, measure
 from .pair import Match, Pair, locate
@@ -61,36 +59,6 @@ def compare_robot_flags(pair: Pair, comparison: Comparison) -> None:
     if set(pair.formats) == {"urdf", "sdf"}:
         compare_settings(pair, comparison, "base", "robot", names, base, settings, robots)
     compare_settings(pair, comparison, "link flags", "robot", names, rows, settings, robots)
-
-
-def compare_worlds(pair: Pair, comparison: Comparison) -> None:
-    """Compare gravity, medium and solver of the worlds of two robots, as far as both have them."""
-    robots = pair.a.robot, pair.b.robot
-    rows, reason = _choose_world_rows(*robots)
-    if reason:
-        comparison.skipped["world"] = reason
-    settings = robots[0].world, robots[1].world
-    names = robots[0].name, robots[1].name
-    compare_settings(pair, comparison, "world", "robot", names, rows, settings, robots)
-
-
-def _choose_world_rows(a: Robot, b: Robot) -> tuple[list[Setting], str]:
-    """Return the settings of worlds that are compared; with a reason if that is none.
-
-    MuJoCo has a value for each in every MJCF, Gazebo in every world. Between formats, gravity is
-    compared if each other file writes it.
-    """
-    if "usd" in (a.format, b.format):
-        return [], "not read of USD"
-    if a.format == b.format:
-        without = [one for one in (a, b) if one.format == "sdf" and find_world(one) is None]
-        reason = "in the row of simulator data" if a.format == "urdf" else ""
-        reason = "a file has no <world>" if without else reason
-        return ([] if reason else [*BY_FORMAT[a.format]]), reason
-    if all(one.format == "mjcf" or "gravity" in one.world for one in (a, b)):
-        rows = BY_FORMAT["mjcf" if "mjcf" in (a.format, b.format) else a.format]
-        return [row for row in rows if row.name == "gravity"], ""
-    return [], "gravity is not written in every file"
 
 
 def compare_flags(pair: Pair, match: Match, comparison: Comparison) -> None:

@@ -11,7 +11,13 @@ MESHES = "mesh not read", "meshes not read"
 UNREAD = "part not read", "parts not read"
 """Kind of what a reader did not read, and two files do not have in equal words."""
 
-COUNTED = (MESHES, UNREAD)
+SETTINGS = "setting of the world", "settings of the world"
+"""Kind of the settings of a world that decide what a simulator does with a part of one robot."""
+
+OPEN = "closed loop", "closed loops"
+"""Kind of the connections that close loops in one robot, and whose row is not compared."""
+
+COUNTED = (MESHES, UNREAD, SETTINGS, OPEN)
 """Kinds that leave it unknown whether two robots are equal."""
 
 COLORED = "mesh with colors of its own", "meshes with colors of their own"

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from ..diagnostic import Severity
 from ..model.elements import Robot, UnknownShape
 from .difference import Comparison
 from .pair import Pair
@@ -20,7 +21,7 @@ class _Row(NamedTuple):
     Attributes:
         names: The rows.
         section: Section of MJCF whose elements are compared as they are written, and these parts
-            with them; empty for none.
+            with them; ``*`` for parts that two files of one format always have as elements.
     """
 
     names: tuple[str, ...]
@@ -30,6 +31,10 @@ class _Row(NamedTuple):
 _ACTUATORS = _Row(("actuators",), "actuator")
 _TENDONS = _Row((NATIVE,), "tendon")
 _EQUALITIES = _Row((NATIVE,), "equality")
+_ELEMENTS = _Row((NATIVE,), "*")
+_OTHERS = _Row((NATIVE,))
+_SHAPES = _Row(("collisions", "visuals"))
+_TREE = _Row(("tree",))
 
 _ROWS = {
     "activation": _ACTUATORS,
@@ -41,26 +46,71 @@ _ROWS = {
     "equality-flexvert": _EQUALITIES,
     "tendon": _TENDONS,
     "contact-pair": _Row(("contact pairs",), "contact"),
-    "created": _Row((NATIVE,)),
-    "attribute": _Row((NATIVE,)),
-    "flex": _Row(("collisions", "visuals")),
+    "sensor": _Row(("sensors",), "sensor"),
+    "camera-mode": _Row(("sensors",), "*"),
+    "setting": _ELEMENTS,
+    "element": _ELEMENTS,
+    "mocap": _Row(("base",), "*"),
+    "created": _OTHERS,
+    "attribute": _OTHERS,
+    "plugin": _OTHERS,
+    "contradiction": _OTHERS,
+    "nested-plugin": _Row(("plugins",)),
+    "flex": _SHAPES,
+    "shape": _SHAPES,
     "skin": _Row(("visuals",)),
-    "plugin": _Row((NATIVE,)),
+    "approximation": _Row(("collisions",)),
+    "hidden-geom": _Row(("visuals",)),
     "force-range": _Row(("limits",)),
+    "base-dynamics": _Row(("joint physics",)),
+    "damping": _Row(("joint physics",)),
     "discarded-visual": _Row(("visuals", "colors", "textures")),
+    "material-script": _Row(("colors", "textures")),
+    "texture": _Row(("textures",)),
+    "made-texture": _Row(("textures",)),
+    "look": _Row(("looks",)),
+    "friction": _Row(("surface",)),
+    "collision-group": _Row(("contact pairs",)),
+    "self-collision": _Row(("link flags",)),
+    "self-collide": _Row(("link flags",)),
+    "kinematic": _Row(("base", "link flags")),
+    "world": _Row(("base",)),
     "added-mass": _Row(("inertia", "mass matrix")),
     "auto-inertia": _Row(("mass", "center of mass", "inertia", "mass matrix", "gravity")),
     "inertial": _Row(("inertia",)),
-    "gearbox": _Row(("tree",)),
-    "self-collide": _Row(("link flags",)),
     "mass": _Row(("mass", "mass matrix", "gravity")),
     "center-of-mass": _Row(("center of mass", "mass matrix", "gravity")),
     "inertia": _Row(("inertia", "mass matrix")),
+    "gearbox": _TREE,
+    "gripper": _TREE,
+    "mimic": _TREE,
+    "mimic-offset": _TREE,
+    "joint": _TREE,
+    "joint-type": _TREE,
+    "joint-body": _TREE,
+    "joint-apart": _Row(("tree", "frames")),
+    "drive-type": _Row(("actuators", "limits")),
     "disabled-joint": _Row((LOOPS,)),
 }
 """Rows by the code of a loss of reading, after ``unread-``; shapes that are not read and images
 are recorded where they are compared.
 """
+
+NO_ROW = frozenset((
+    *("anchor", "articulation", "body", "camera", "custom", "display", "display-attribute"),
+    *("end-tag", "keyframe", "light", "mesh", "mesh-scale", "missing-model", "model"),
+    *("not-well-formed", "scenery", "submesh", "units", "up-axis", "variant", "version", "warning"),
+    *("hfield", "plane", "sdf"),
+))  # fmt: skip
+"""Codes of what is around a robot, of how a file is read, of what is compared as it is written in
+two files of one format and moves nothing, and of shapes and images.
+"""
+
+_SHAPE = "shape-"
+"""Beginning of the codes of shapes of SDF."""
+
+_AROUND = {"sdf": frozenset(("world",)), "usd": frozenset(("setting",))}
+"""Further such codes by format: elements of a world; solvers, and states at the start."""
 
 _PLUGINS_IN_ROW = "sdf"
 """Format whose plugins have a row of their own."""
@@ -85,7 +135,7 @@ def list_unread(a: Robot, b: Robot) -> Iterator[Uncompared]:
         is_known = a.format == b.format and all(text is not None for _, _, text in (*one, *two))
         left = (one - two) + (two - one) if is_known else one + two
         for name, reason, _ in left:
-            for row in _ROWS[code].names:
+            for row in _ROWS.get(code, _OTHERS).names:
                 yield Uncompared(row, UNREAD, name, reason)
 
 
@@ -116,10 +166,23 @@ def _collect(robot: Robot, other: Robot) -> dict[str, Counter[_Part]]:
     found: dict[str, Counter[_Part]] = {}
     for loss in robot.unread:
         code = loss.code.removeprefix("unread-")
-        if code in _ROWS and not _is_compared_natively(_ROWS[code], robot, other):
+        row = _find_row(robot, code, loss.severity)
+        if row is not None and not _is_compared_natively(row, robot, other):
             if (code, robot.format) != ("plugin", _PLUGINS_IN_ROW):
                 found[code] = Counter(_list_parts(loss.data))
     return found
+
+
+def _find_row(robot: Robot, code: str, severity: Severity) -> _Row | None:
+    """Return the rows of an unread part; those of a code without some if it may move the robot."""
+    around = NO_ROW | _AROUND.get(robot.format, frozenset())
+    if (
+        code in around
+        or code.startswith(_SHAPE)
+        or (code not in _ROWS and severity < Severity.WARNING)
+    ):
+        return None
+    return _ROWS.get(code, _OTHERS)
 
 
 def _list_parts(data: Mapping[str, Any]) -> Iterator[_Part]:
@@ -132,7 +195,7 @@ def _is_compared_natively(row: _Row, robot: Robot, other: Robot) -> bool:
     """Tell whether two robots of one format have the elements of a row as they are written."""
     if robot.format != other.format or not row.section:
         return False
-    return any(element.section == row.section for element in robot.native)
+    return row.section == "*" or any(element.section == row.section for element in robot.native)
 
 
 def is_one_text(a: Robot, b: Robot) -> bool:

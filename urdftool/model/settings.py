@@ -269,6 +269,8 @@ def parse(kind: str, text: str) -> Content | None:
         return parse_numbers(text, 3)
     if kind == "color":
         return parse_numbers(text, 4) or parse_numbers(f"{text} 1", 4)
+    if kind == "list":
+        return parse_numbers(text, len(text.split()))
     if kind == "count" and _HEXADECIMAL.fullmatch(text):
         return float(int(text, 16))
     value = number(text)
@@ -283,6 +285,7 @@ def describe_kind(kind: str) -> str:
         "number": "a finite number",
         "count": "a whole number",
         "vector": "three finite numbers",
+        "list": "finite numbers",
         "color": "three or four finite numbers",
         "flag": "true or false",
         "text": "a text",

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..compare.difference import Comparison, name_part
-from ..compare.rows import NOT_COMPARED
+from ..compare.rows import GLOBAL_ROWS, NOT_COMPARED
 from ..compare.several import Agreement, Disagreement
-from ..compare.uncompared import MESHES, UNREAD
+from ..compare.uncompared import MESHES, OPEN, SETTINGS, UNREAD
 from .counted import format_count
 from .json_text import format_json
 from .tables import render_table
@@ -151,7 +151,7 @@ def _format_entry(entry: Disagreement, owner: str) -> str:
     note = f": {entry.note}" if entry.note else ""
     text = f"{owner}{entry.what}{unit}{note}\n"
     for number, (value, place) in enumerate(zip(entry.values, entry.places, strict=True)):
-        if entry.kind == "robot":
+        if entry.row in GLOBAL_ROWS:
             continue
         shown = _format_value(value) if number in entry.compared else "not compared"
         where = f"  {place}" if place is not None else ""
@@ -182,11 +182,19 @@ def _has_compared(agreement: Agreement) -> bool:
     return any(check.verdict not in ("none", "not compared") for check in checks)
 
 
-def _name_unread(agreement: Agreement) -> str:
-    """Name the kinds of what was not read and counts: meshes, other parts, or both."""
+_UNKNOWN = {
+    MESHES: "meshes were not read",
+    UNREAD: "parts that are compared were not read",
+    SETTINGS: "worlds are not the same",
+    OPEN: "closed loops were not compared",
+}
+"""What leaves it unknown whether two robots are equal."""
+
+
+def _explain_unknown(agreement: Agreement) -> str:
+    """Return why it is unknown whether robots without a difference are equal."""
     kinds = {part.kind for one in agreement.pairs.values() for part in one.uncompared}
-    words = {MESHES: "meshes", UNREAD: "parts that are compared"}
-    return " and ".join(word for kind, word in words.items() if kind in kinds)
+    return " and ".join(words for kind, words in _UNKNOWN.items() if kind in kinds)
 
 
 def _describe_verdict(agreement: Agreement) -> str:
@@ -194,7 +202,7 @@ def _describe_verdict(agreement: Agreement) -> str:
     if not _has_compared(agreement):
         return "nothing was compared"
     if not agreement.is_equal:
-        return f"no difference was found, but {_name_unread(agreement)} were not read"
+        return f"no difference was found, but {_explain_unknown(agreement)}"
     return "equal in every compared property"
 
 

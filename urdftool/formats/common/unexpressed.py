@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator
 from typing import NamedTuple
 
 from ...diagnostic import Severity
@@ -12,7 +12,7 @@ from ...model.materials import find_shown_material
 from ...model.part import Part
 from ...model.read_settings import list_settings
 from ...model.settings import ALL_OF_LINKS, LUMPING_TAGS, Setting
-from ...model.world_settings import list_changed
+from ...model.world_settings import describe_setting, list_changed, list_decided
 from ..written import Written
 
 
@@ -50,9 +50,16 @@ def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[s
     written.losses += robot.unread
     if "setting" not in expressed:
         report_unwritten_settings(robot, written, lambda row: row.path)
-    for code, what, parts, severity in _list_kinds(robot):
-        if code in expressed:
-            continue
+    _report_kinds((kind for kind in _list_kinds(robot) if kind.code not in expressed), written)
+
+
+def report_world_settings(robot: Robot, written: Written) -> None:
+    """Report the settings of the world of a robot that are not the defaults of its format."""
+    _report_kinds(_list_world_kinds(robot), written)
+
+
+def _report_kinds(kinds: Iterable[_Kind], written: Written) -> None:
+    for code, what, parts, severity in kinds:
         for part, name in parts:
             if part.xml is not None and code in _IN_BLOCKS:
                 continue
@@ -124,6 +131,18 @@ def _report_color(
     )
 
 
+def _list_world_kinds(robot: Robot) -> Iterator[_Kind]:
+    """Yield the settings of the world: those that decide what a robot does, and others."""
+    changed = list(list_changed(robot))
+    for moves, severity in ((True, Severity.WARNING), (False, Severity.INFO)):
+        parts: list[tuple[Part, str]] = [
+            (value, describe_setting(row, value.content))
+            for row, value in changed
+            if bool(list_decided(row, value.content)) is moves
+        ]
+        yield _Kind("world-setting", "setting of the world", parts, severity)
+
+
 def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     yield _Kind("closure", "closed loop", [(part, part.name) for part in robot.closures])
     yield _Kind("joint-actuator", "actuator", [(p, p.name) for p in robot.joint_actuators])
@@ -141,8 +160,7 @@ def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     yield _Kind("sensor", "sensor", [(part, part.name) for part in robot.mounted_sensors], info)
     plugins = [(part, part.name or part.library) for part in robot.mounted_plugins]
     yield _Kind("plugin", "plugin", [*plugins], info)
-    world = [(value, row.name) for row, value in list_changed(robot)]
-    yield _Kind("world-setting", "setting of the world", [*world], info)
+    yield from _list_world_kinds(robot)
     yield _Kind("base", "free base", [(b, "") for b in (robot.base,) if b and b.is_free], info)
     rotors = [(j.dynamics, j.name) for j in robot.joints if j.dynamics and j.dynamics.armature]
     yield _Kind("joint-armature", "armature of joint", [*rotors])

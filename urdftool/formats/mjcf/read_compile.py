@@ -16,6 +16,7 @@ from ...dependencies import Dependencies
 from ...errors import SourceError
 from ...limited import Limits, open_no_files
 from ...model.settings import SURFACE_OF_MUJOCO
+from ...model.world_settings import OF_MUJOCO
 from ...workspace import Workspace
 from .read_assets import read_assets
 from .read_native_table import KINDS
@@ -369,13 +370,20 @@ _WORDS = {word.lower(): word for word in ("Euler", "RK4", "PGS", "CG", "Newton")
 """Words of ``<option>`` that are not in lower case."""
 
 
+_GROUPS = 31
+"""Number of groups of actuators in MuJoCo's ``mjNGROUPS`` of ``actuatorgroupdisable``."""
+
+
 def _list_options(_: Any, model: Any, mujoco: Any) -> list[Row]:
-    option = model.opt
+    option, usual = model.opt, mujoco.MjOption()  # versions have other defaults
     row: Row = {"name": "", "line": 0}
-    for name in ("gravity", "wind", "magnetic"):
-        row[name] = getattr(option, name).tolist()
-    for name in ("density", "viscosity", "timestep", "impratio", "tolerance", "iterations"):
-        row[name] = getattr(option, name)
+    for setting in OF_MUJOCO:
+        name = setting.mjcf.partition(" ")[2]
+        values = [getattr(one, name, setting.default) for one in (option, usual)]
+        value, other = (v.tolist() if hasattr(v, "tolist") else v for v in values)
+        row[name] = setting.default if value == other else value
+    groups = (group for group in range(_GROUPS) if option.disableactuator & 1 << group)
+    row["actuatorgroupdisable"] = " ".join(map(str, groups))
     for name, enum, prefix in (
         ("integrator", mujoco.mjtIntegrator, "mjINT_"),
         ("cone", mujoco.mjtCone, "mjCONE_"),

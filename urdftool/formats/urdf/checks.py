@@ -16,7 +16,7 @@ from .options import Options
 from .read import read
 from .verify_srdf import check_srdf
 
-NOT_COMPARED = ("contact bits", "textures", "world settings", "closed loops")
+NOT_COMPARED = ("contact bits", "solver and other settings of the world", "closed loops")
 """Parts of a description that no check compares."""
 
 _EXCUSES = (

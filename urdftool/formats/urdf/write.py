@@ -21,6 +21,7 @@ from ..common.force_fallbacks import (
 from ..common.missing_bounds import explain_missing_bounds
 from ..common.naming import replace_file_name, shorten_file_name
 from ..common.numbers import number_text
+from ..common.unexpressed import report_world_settings
 from ..defects import refuse
 from ..written import Written
 from .control import add_control
@@ -240,6 +241,8 @@ def _get_frame_name(frame: Frame) -> str:
 def _report_unexpressed(t: Translation) -> None:
     """Report what URDF cannot hold, once for each kind."""
     robot = t.robot
+    if robot.xml is None:  # <mujoco> of a URDF is copied
+        report_world_settings(robot, t.written)
     rotors = [j for j in robot.joints if j.dynamics is not None and j.dynamics.armature]
     kinds = (
         ("armature", "rotor inertia (armature) of joints is dropped", rotors),
