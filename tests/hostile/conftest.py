@@ -6,7 +6,7 @@ from tests.hostile.place import Place
 from tests.hostile.zygote import Zygote
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def zygote():
     process = Zygote()
     yield process

@@ -240,14 +240,28 @@ REFUSED = (
 """Expressions with a kind of syntax or a name that is not allowed, whatever they compute."""
 
 
-@pytest.mark.parametrize("group", sorted({group for group, _ in REFUSED}))
-def test_what_is_not_allowed_is_an_error_with_its_place(zygote, place, group):
-    for _, name in [case for case in REFUSED if case[0] == group]:
+def check_refused(zygote, place, group, step):
+    """Expect an error at the expression for each so many of a group."""
+    for name in [name for of, name in REFUSED if of == group][::step]:
         text = escapes.GROUPS[group][name]
         outcome, _ = try_out(zygote, place, "expand robot.xacro", *by_argument(text))
         assert outcome.code == 2, (name, outcome.out)
         assert b"robot.xacro:1" in outcome.err, (name, outcome.err)
         assert not outcome.out.strip(), name
+
+
+REFUSED_GROUPS = sorted({group for group, _ in REFUSED})
+
+
+@pytest.mark.parametrize("group", REFUSED_GROUPS)
+def test_a_third_of_what_is_not_allowed_is_an_error_with_its_place(zygote, place, group):
+    check_refused(zygote, place, group, THIRD)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("group", REFUSED_GROUPS)
+def test_what_is_not_allowed_is_an_error_with_its_place(zygote, place, group):
+    check_refused(zygote, place, group, 1)
 
 
 HARMFUL = {

@@ -47,7 +47,8 @@ class Zygote:
             fresh: Start ``python -m urdftool`` for each command, as a user does.
         """
         self._fresh = fresh
-        environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+        # a library that starts threads when it is imported would keep commands from forking
+        environment = {**os.environ, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
         self._process = subprocess.Popen(
             [sys.executable, "-m", "tests.hostile.zygote"],
             cwd=ROOT,
@@ -59,10 +60,15 @@ class Zygote:
 
     def run(self, words: Sequence[str | bytes], place: Place) -> Outcome:
         """Run a command of urdftool in the project of a place."""
-        return self.ask({"words": [_pack(word) for word in words], "fresh": self._fresh}, place)
+        return self.ask({**pack_words(words), "fresh": self._fresh}, place)
 
     def ask(self, job: dict[str, Any], place: Place) -> Outcome:
-        """Pass a job on and wait for what comes of it."""
+        """Pass a job on and wait for what comes of it.
+
+        Args:
+            job: What to do: ``words`` of a command, or a ``plain`` expression of Python.
+            place: Where.
+        """
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         job |= {
@@ -82,9 +88,10 @@ class Zygote:
         self._process.wait(30)
 
 
-def _pack(word: str | bytes) -> str:
-    data = word if isinstance(word, bytes) else os.fsencode(word)
-    return base64.b64encode(data).decode()
+def pack_words(words: Sequence[str | bytes]) -> dict[str, Any]:
+    """Return the job that runs a command."""
+    data = [word if isinstance(word, bytes) else os.fsencode(word) for word in words]
+    return {"words": [base64.b64encode(word).decode() for word in data]}
 
 
 def _read(outcome: Outcome, place: Place) -> Outcome:
@@ -240,17 +247,32 @@ def _and_exit(start: Any) -> Any:
     return run
 
 
-def _import_ahead() -> None:
-    """Import what every command needs, so that a fork is cheap; no library with threads."""
-    from importlib import import_module
+_AHEAD = (
+    *("source", "rules", "lint", "model", "report", "inertia", "compare", "bundle", "fmt", "graph"),
+    *("formats.common", "formats.sdf", "formats.mjcf", "api", "mechanics", "geometry"),
+)
+"""Packages of urdftool whose modules commands share."""
 
-    for name in (
-        *("yaml", "lxml.etree", "urdftool.source.xacro_hooks", "urdftool.source.description"),
-        *("urdftool.source.xacro_errors", "urdftool.commands.expand", "urdftool.commands.lint"),
-        *("urdftool.lint.run", "urdftool.model.read"),
-    ):
-        with contextlib.suppress(ImportError):
-            import_module(name)
+
+def _import_ahead() -> None:
+    """Import what commands share, so that a fork is cheap; no library with threads."""
+    from importlib import import_module
+    from pkgutil import walk_packages
+
+    from urdftool import extras
+
+    for name in ("yaml", "lxml.etree", "numpy", "urdftool.cli"):
+        import_module(name)
+    for package in _AHEAD:
+        folder = import_module(f"urdftool.{package}")
+        for module in walk_packages(folder.__path__, f"{folder.__name__}."):
+            try:
+                import_module(module.name)
+            except ImportError as error:
+                if extras.find_missing_library(error) is None:
+                    raise
+    threads = Path("/proc/self/task")
+    assert not threads.exists() or len(list(threads.iterdir())) == 1
 
 
 def _evaluate_plainly(text: str) -> None:
