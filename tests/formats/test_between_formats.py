@@ -19,7 +19,10 @@ ROBOTS = {
 }
 BOX = '<geom type="box" size=".1 .1 .1"/>'
 
-pytestmark = pytest.mark.library("mujoco")
+pytestmark = [
+    pytest.mark.library("mujoco"),
+    pytest.mark.usefixtures("stages_are_read_here"),
+]
 
 
 def differing(written):

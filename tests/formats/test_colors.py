@@ -10,6 +10,8 @@ import urdftool
 from tests.cases import list_cases
 from urdftool.model.materials import find_shown_material
 
+pytestmark = pytest.mark.usefixtures("stages_are_read_here")
+
 RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
 
 ROBOT = """<robot name="r">

@@ -8,6 +8,8 @@ import urdftool as api
 from tests.compare.test_verify import MJCF, SDF
 from tests.conftest import FIXTURES
 
+pytestmark = pytest.mark.usefixtures("stages_are_read_here")
+
 READERS = FIXTURES / "readers"
 mujoco = pytest.mark.library("mujoco")
 FILES = [

@@ -14,6 +14,8 @@ from urdftool.mechanics.tensor import to_matrix
 from urdftool.model.elements import ZERO
 from urdftool.model.pose import IDENTITY, rotation_from_rpy
 
+pytestmark = pytest.mark.usefixtures("stages_are_read_here")
+
 FORMATS = [
     pytest.param("sdf"),
     pytest.param("mjcf", marks=pytest.mark.skipif(not find_spec("mujoco"), reason="compiles it")),
