@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 
 def report_refused(console: Console, findings: Sequence[Finding], *, as_json: bool) -> int:
-    """Print every defect on one line; nothing is written. Return the exit code."""
-    from ..formats.common.loss_report import count_messages, format_lines
+    """Print a line for each defect; nothing is written. Return the exit code."""
+    from ..formats.common.loss_report import count_messages, format_lines, keep_largest
 
     if as_json:
         from ..report.exports import to_json
 
         click.echo(to_json(None, (), findings, ()), nl=False)
-    for line in format_lines(findings):
+    for line in format_lines(findings if console.verbosity > 0 else keep_largest(findings)):
         console.print_note(line, level=-1)
     count = format_count(count_messages(findings), "error")
     console.print_message(f"no file was written: {count}")

@@ -80,6 +80,24 @@ def test_an_impossible_tensor_of_a_moving_body_is_refused_with_its_place(write):
     assert caught.value.line == 4
 
 
+@pytest.mark.parametrize("format", ["mjcf", "sdf", "usd"])
+def test_many_impossible_tensors_are_one_line(urdftool, write, tmp_path, format):
+    if format == "usd":
+        pytest.importorskip("pxr")
+    names = "abcde"
+    links = [link(n, inertial(1, (1, 1, 3 + k))) for k, n in enumerate(names)]
+    joints = [joint(f"j{n}", "base", n) for n in names]
+    path = write("r.urdf", robot("", link("base", inertial(1, (1, 1, 1))), *links, *joints))
+    words = "export", format, path, "-o", tmp_path / "out"
+    refused = urdftool(*words)
+    assert refused.code == 2
+    [line] = [text for text in refused.err.splitlines() if "inconsistent" in text]
+    assert "link 'e'" in line and "(the largest of 5; -v shows all)" in line  # noqa: PT018
+    assert "5 errors" in refused.err
+    assert urdftool("-v", *words).err.count("inconsistent") == 5
+    assert urdftool(*words, "--fix-inertia", "lift").err.count("inconsistent") == 1
+
+
 @pytest.mark.parametrize(
     ("fix", "moments"),
     [("lift", [1.5, 1.5, 3]), ("balance", [5 / 3] * 3), ("box", [13 / 12, 10 / 12, 5 / 12])],

@@ -6,6 +6,7 @@ import pytest
 
 from urdftool.compare.check import Check
 from urdftool.formats.common.directory import write_directory
+from urdftool.formats.mjcf import read
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
@@ -40,6 +41,20 @@ def test_small_robots_are_equal(name, base, tmp_path):
     assert {check.verdict for check in steps} <= {"equal", "announced"}
     verdicts = {check.verdict for check in checks if check not in steps} - {"not compared", "none"}
     assert verdicts <= expected, format_check_table(checks)
+
+
+def test_a_model_that_was_compiled_is_read_without_a_limit_of_memory(tmp_path, monkeypatch):
+    limits = []
+    call = read.call_with_limits
+
+    def observe(*words, **named):
+        limits.append(named["limits"])
+        return call(*words, **named)
+
+    monkeypatch.setattr(read, "call_with_limits", observe)
+    verified(min(GOLDENS), tmp_path, Options())
+    assert limits
+    assert {one.memory for one in limits} == {None}
 
 
 @pytest.mark.parametrize(

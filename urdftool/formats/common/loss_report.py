@@ -12,11 +12,15 @@ from ...finding import Finding
 _MOST_LINES = 100
 """Lines of one rule that are printed; chosen."""
 
-_RANKED = {"lossy-nonconvex": "hull_ratio"}
-"""Codes of losses that most meshes of a robot can have, and the value that ranks them."""
+_RANKED = {
+    "lossy-nonconvex": "hull_ratio",
+    "lossy-inertia": "excess",
+    "inertia-triangle-inequality": "excess",
+}
+"""Codes of findings that most links of a robot can have, and the value that ranks them."""
 
 _FEW = 3
-"""Ranked losses of one code that are printed one by one; chosen, no source."""
+"""Ranked findings of one code that are printed one by one; chosen, no source."""
 
 
 def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
@@ -53,24 +57,29 @@ def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
 
 
 def keep_largest(findings: Iterable[Finding]) -> list[Finding]:
-    """Replace many losses that differ in one value by that with the largest, which counts them."""
+    """Replace many findings that differ in one value by the largest, which counts them."""
     merged = merge_instances(findings)
-    counts = Counter(finding.code for finding in merged)
-    largest = {finding.code: finding for finding in sorted(merged, key=_get_rank)}
+    ranked: dict[str, list[Finding]] = {}
+    for finding in merged:
+        if _RANKED.get(finding.code) in finding.data:
+            ranked.setdefault(finding.code, []).append(finding)
+    largest, others = {}, set()
+    for some in ranked.values():
+        if len(some) > _FEW:
+            others |= set(map(id, some))
+            largest[id(max(some, key=_get_rank))] = len(some)
     shown = []
     for finding in merged:
-        count = counts[finding.code] if finding.code in _RANKED else 0
-        if count > _FEW and finding is largest[finding.code]:
+        if count := largest.get(id(finding)):
             text = f"{finding.message} (the largest of {count}; -v shows all)"
-            finding = replace(finding, message=text)
-        elif count > _FEW:
-            continue
-        shown.append(finding)
+            shown.append(replace(finding, message=text))
+        elif id(finding) not in others:
+            shown.append(finding)
     return shown
 
 
 def _get_rank(finding: Finding) -> float:
-    return float(finding.data.get(_RANKED.get(finding.code, ""), 0.0))
+    return float(finding.data[_RANKED[finding.code]])
 
 
 def count_messages(findings: Iterable[Finding]) -> int:

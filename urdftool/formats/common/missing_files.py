@@ -39,7 +39,7 @@ def explain_missing_file(robot: Robot, filename: str) -> MissingFile:
     try:
         path = Path(robot.source.resolve(filename))
     except AccessError as error:
-        return MissingFile("is not read", error.message, error.message)
+        return MissingFile("is not read", error.message, error.data.get("reason", error.message))
     except SourceError as error:
         scheme, separator, rest = filename.partition("://")
         package = scheme + separator + rest.lstrip("/").partition("/")[0]

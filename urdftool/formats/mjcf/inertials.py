@@ -154,8 +154,9 @@ def _repair(
     read = group[name]
     before = format_moments_text(read.tensor)
     static = structure.is_static(name)
+    excess = {"excess": get_excess(read.tensor, read.mass)}
     is_tensor_possible = tensors.is_possible(read.tensor)
-    is_rounded = read.mass > 0 and get_excess(read.tensor, read.mass) <= WRITTEN_ROUNDING
+    is_rounded = read.mass > 0 and excess["excess"] <= WRITTEN_ROUNDING
     if fix == "none" and not (static or force or is_rounded):
         reason = "none may be negative or above the sum of the other two"
         yield make_defect(
@@ -166,6 +167,7 @@ def _repair(
             read.place,
             "link",
             name,
+            data=excess,
         )
         return
     if read.mass <= 0:
@@ -183,6 +185,7 @@ def _repair(
         read.place,
         kind="link",
         name=name,
+        data=excess,
     )
 
 

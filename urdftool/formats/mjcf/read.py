@@ -14,7 +14,7 @@ from typing import Any
 from ...diagnostic import Severity
 from ...errors import ModelError, SourceError
 from ...extras import is_installed, make_missing_error
-from ...limited import call_with_limits
+from ...limited import Limits, call_with_limits
 from ...model.elements import Robot
 from ...model.provenance import Written
 from ...source.description import Description
@@ -46,6 +46,7 @@ def read(
     file: SourceFile | None = None,
     packages: Packages | None = None,
     workspace: Workspace | None = None,
+    limits: Limits = LIMITS,
     **_: Any,
 ) -> Reading:
     """Read a robot.
@@ -55,6 +56,7 @@ def read(
         file: The file, if it has been read.
         packages: Finder of mesh files; None creates one.
         workspace: Access to files; None creates a new one.
+        limits: Limits of MuJoCo; for trusted input only that of time.
 
     Raises:
         MissingDependency: MuJoCo is not installed.
@@ -66,7 +68,7 @@ def read(
     file, finder, workspace = open_description(path, file, packages, workspace)
     expanded = expand(file, workspace)
     check_files(expanded, finder.access)
-    compiled = _compile(expanded, workspace)
+    compiled = _compile(expanded, workspace, limits)
     losses = Losses()
     context = Context(expanded, compiled, losses)
     written = Written(expanded.root.place)
@@ -115,7 +117,7 @@ def _check_magnitudes(context: Context) -> None:
                     raise ModelError(f"{text}; write a plausible number", at=at)
 
 
-def _compile(expanded: Expanded, workspace: Workspace) -> Compiled:
+def _compile(expanded: Expanded, workspace: Workspace, limits: Limits) -> Compiled:
     """Compile a model in another process.
 
     Raises:
@@ -130,7 +132,7 @@ def _compile(expanded: Expanded, workspace: Workspace) -> Compiled:
         compiled, read = call_with_limits(
             compile_text,
             *arguments,
-            limits=choose_limits(LIMITS, workspace),
+            limits=choose_limits(limits, workspace),
             prepare=import_library,
         )
     if workspace.dependencies is not None:

@@ -18,6 +18,7 @@ import numpy as np
 from ...compare.check import Check
 from ...compare.proof import Claims, prove
 from ...compare.rows import GLOBAL_ROWS, ROWS, Row
+from ...limited import Limits
 from ...mechanics.reference import Array, Mechanics, get_origin_matrix
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import get_limits
@@ -33,6 +34,7 @@ from .copied import has_copied_home, list_copied, list_uncopied
 from .declared_losses import EFFORT, EXCUSES, INERTIA, TORN
 from .options import Options
 from .read import read
+from .read_compile import LIMITS
 from .verify_defaults import check_defaults
 from .verify_fuse import fuse_check
 from .verify_home import check_home
@@ -121,7 +123,7 @@ def verify(
     robot, _ = add_world(read_again(robot))
     assert again.planned is not None
     expected = _make_expected(robot, again.planned)
-    reading = read(model)
+    reading = read(model, limits=Limits(LIMITS.time))  # this process has compiled it already
     expected.native = select_native(robot, options)
     checks = [*_compare_read(expected, written, reading)]
     declared = DeclaredLosses.from_findings(written.losses)

@@ -60,6 +60,7 @@ def add_inertial(node: Node, t: Translation, link: Link) -> None:
             "kg·m²",
             about,
             link,
+            data={"excess": short},
         )
     elif short > ROUNDING:
         t.report_loss(

@@ -48,12 +48,13 @@ class Translation:
         *,
         severity: Severity = Severity.WARNING,
         hint: str = "",
+        data: Mapping[str, object] | None = None,
     ) -> None:
         """Report robot data that SDF does not carry, with its link or joint."""
         kind = "" if about is None else "link" if isinstance(about, Link) else "joint"
         name = "" if about is None else about.name
         self.written.report_loss(
-            what, message, at.place, kind=kind, name=name, severity=severity, hint=hint
+            what, message, at.place, kind=kind, name=name, severity=severity, hint=hint, data=data
         )
 
     def report_note(

@@ -181,6 +181,7 @@ def report_inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
             "link",
             worst.name,
             "--fix-inertia lift, balance or box changes it",
+            {"excess": short},
         )
 
 

@@ -133,12 +133,13 @@ def _repair(
     before = f"principal moments {format_moments_text(body.tensor)} kg·m²"
     defects = []
     if options.fix_inertia == "none" and not static and excess > WRITTEN_ROUNDING:
+        code = "inertia-triangle-inequality"
         text = (
             f"inertia of link '{link.name}' is physically inconsistent: {before} (none may be "
             "negative or above the sum of the other two), and Newton replaces it. Correct it, or "
             "use --fix-inertia lift, balance or box"
         )
-        defects = [make_defect("inertia-triangle-inequality", text, link.place, "link", link.name)]
+        defects = [make_defect(code, text, link.place, "link", link.name, data={"excess": excess})]
         if not options.force:
             return body, defects
     tensor, how = repair_tensor(
@@ -156,6 +157,7 @@ def _repair(
             link.place,
             kind="link",
             name=link.name,
+            data={"excess": excess},
         )
     return SpatialInertia(body.mass, body.com, tensor), defects
 
