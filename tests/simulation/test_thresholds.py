@@ -3,6 +3,7 @@
 import ast
 import inspect
 import json
+import math
 import re
 from dataclasses import fields
 
@@ -129,3 +130,23 @@ def test_sliding_and_turning_joints_have_a_bound_each(write, kind, bounds, rests
     still[:, 6] = 1.0
     found = [watch.add(0.1 * n, still, np.array([0.004 * (n % 2)])) for n in range(5)]
     assert (found[-1] is not None) is rests
+
+
+@pytest.mark.parametrize(
+    ("move", "rests"),
+    [
+        (lambda t: 0.014 * t, False),  # a hinge that gravity turns against a large damping
+        (lambda t: 0.001 * math.exp(3 * t), False),  # the first second of a fall
+        (lambda t: 0.05 * math.exp(-6 * t), True),  # a joint that comes to rest
+        (lambda t: 0.002 * math.sin(40 * t), True),  # a joint that trembles
+        (lambda t: 0.0002 * t, True),  # a contact that creeps
+    ],
+)
+def test_a_motion_that_goes_on_is_no_rest(write, move, rests):
+    bodies = prepare(load(write("r.urdf", SLIDER.format(kind="revolute"))), Settings())
+    watch = Stillness(bodies, 1 / 30, Thresholds())
+    still = np.zeros((2, 7))
+    still[:, 6] = 1.0
+    times = [n / 30 for n in range(46)]
+    found = [watch.add(time, still, np.array([move(time)])) for time in times]
+    assert any(one is not None for one in found) is rests

@@ -43,6 +43,10 @@ class Thresholds:
     """Maximum motion of a prismatic joint within the window at rest [m]. Source: chosen; its bodies
     are limited by ``settle_creep`` as well."""
 
+    settle_horizon: float = 5.0
+    """Time within which a robot at rest stays within these bounds if it goes on as it moves [s].
+    Source: chosen, the default duration."""
+
     # --- final state ----------------------------------------------------------------------------
 
     fall_sizes: float = 2.0

@@ -139,7 +139,11 @@ def _has_diverged(sample: Sample, bodies: RigidBodyModel) -> bool:
 
 
 class Stillness:
-    """Detects when a robot is at rest, from positions of samples instead of velocities."""
+    """Detects when a robot is at rest, from positions of samples instead of velocities.
+
+    It is if its positions in a window are equal within bounds, and would stay so: a slow motion
+    that does not slow down, such as the first second of a fall, is no rest.
+    """
 
     def __init__(self, bodies: RigidBodyModel, interval: float, thresholds: Thresholds) -> None:
         """Initialize without samples.
@@ -149,14 +153,16 @@ class Stillness:
             interval: Time between samples [s].
             thresholds: Thresholds of a robot at rest.
         """
-        self.creep = max(thresholds.settle_creep * bodies.size, 1e-5)
-        self.turn = thresholds.settle_turn
-        self.joint_bounds = np.array(
-            [
-                thresholds.settle_slide if joint.kind == "prismatic" else thresholds.settle_turn
-                for joint in bodies.joints
-            ]
+        joint_bounds = [
+            thresholds.settle_slide if joint.kind == "prismatic" else thresholds.settle_turn
+            for joint in bodies.joints
+        ]
+        count = len(bodies.bodies)
+        creep = max(thresholds.settle_creep * bodies.size, 1e-5)
+        self.bounds = np.concatenate(
+            [joint_bounds, np.repeat([creep, thresholds.settle_turn], 3 * count)]
         )
+        self.horizon = thresholds.settle_horizon
         self.window = max(2, round(thresholds.settle_window / interval))
         self.seen: deque[tuple[float, Array, Array]] = deque(maxlen=self.window + 1)
 
@@ -171,15 +177,35 @@ class Stillness:
         self.seen.append((time, poses, positions))
         if len(self.seen) <= self.window:
             return None
-        quiet = all(self._is_near(poses, positions, *old[1:]) for old in self.seen)
-        return self.seen[0][0] if quiet else None
+        values = np.array([self._compare(*sample[1:]) for sample in self.seen])
+        quiet = np.abs(values).max(axis=0, initial=0.0) < self.bounds
+        if not quiet.all() or not (self._extrapolate(values) < self.bounds).all():
+            return None
+        return self.seen[0][0]
 
-    def _is_near(self, poses: Array, positions: Array, before: Array, joints: Array) -> bool:
-        moved = np.abs(poses[:, :3] - before[:, :3]).max(initial=0.0)
-        dots = np.abs(np.einsum("ij,ij->i", poses[:, 3:], before[:, 3:]))
-        turned = 2 * np.arccos(np.clip(dots, 0.0, 1.0)).max(initial=0.0)
-        bent = (np.abs(positions - joints) < self.joint_bounds).all()
-        return bool(moved < self.creep and turned < self.turn and bent)
+    def _compare(self, poses: Array, positions: Array) -> Array:
+        """Subtract the last sample: joints, places and turns of bodies, shape (j + 6 b,)."""
+        _, last, joints = self.seen[-1]
+        moved = poses[:, :3] - last[:, :3]
+        xyz, w = poses[:, 3:6], poses[:, 6:]
+        one, real = -last[:, 3:6], last[:, 6:]
+        turned = 2 * (real * xyz + w * one + np.cross(one, xyz))  # small angles
+        turned *= np.sign(real * w - np.einsum("ij,ij->i", one, xyz)[:, None])
+        return np.concatenate([positions - joints, moved.ravel(), turned.ravel()])
+
+    def _extrapolate(self, values: Array) -> Array:
+        """Estimate how far each value would move from here within the horizon.
+
+        The rate changes in each half of a window by the same factor, but does not grow. Values
+        that go to and fro do not move.
+        """
+        times = np.array([time for time, *_ in self.seen])
+        half = len(times) // 2 + 1
+        before = np.polyfit(times[:half], values[:half], 1)[0]
+        after = np.polyfit(times[-half:], values[-half:], 1)[0]
+        ratio = np.abs(after) / np.maximum(np.abs(before), 1e-12)
+        lasts = (times[-1] - times[0]) / 2 * ratio / np.maximum(1 - ratio, 1e-12)
+        return np.where(before * after > 0, np.abs(after) * np.minimum(lasts, self.horizon), 0.0)
 
 
 def sweep(engine: str, bodies: RigidBodyModel, settings: Settings, folder: Path) -> list[Swept]:
