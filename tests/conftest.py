@@ -1,5 +1,6 @@
 """What several tests share: where things are, and the command line called in process."""
 
+import gc
 import os
 import re
 import shutil
@@ -80,6 +81,20 @@ def pytest_ignore_collect(collection_path, config):
     if is_quick_run(config) and collection_path.suffix == ".py":
         return (collection_path not in QUICK) or None
     return None
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Collect without the garbage collector, which would look at every test again and again.
+
+    What was collected stays: later searches for garbage leave it out.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
+        gc.freeze()
 
 
 def pytest_collection_modifyitems(items):

@@ -2,13 +2,19 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 PACKAGE = Path(__file__).parents[1] / "urdftool"
 MODULES = sorted(PACKAGE.rglob("*.py"))
-TREES = {path: ast.parse(path.read_text("utf-8")) for path in MODULES}
+
+
+@cache
+def tree_of(path):
+    """Parse a module, when the first test needs it: other tests are collected sooner."""
+    return ast.parse(path.read_text("utf-8"))
 
 
 def for_each_module(test):
@@ -167,7 +173,7 @@ PLACES = {
 def imports(path):
     """Yield what a module imports: packages of urdftool, and libraries."""
     relative = path.relative_to(PACKAGE)
-    tree = TREES[path]
+    tree = tree_of(path)
     for_annotations = {
         inner
         for node in ast.walk(tree)
@@ -212,7 +218,7 @@ def test_only_commands_print_and_exit(path):
     relative = path.relative_to(PACKAGE)
     if relative.parts[0] in ("commands", "cli.py", "console.py", "output.py"):
         return
-    for node in ast.walk(TREES[path]):
+    for node in ast.walk(tree_of(path)):
         if isinstance(node, ast.Call):
             assert ast.unparse(node.func) not in ("print", "sys.exit", "exit", "click.echo"), (
                 relative
@@ -241,7 +247,7 @@ CALLS = {
 @for_each_module
 def test_each_deed_has_its_place(path):
     relative = str(path.relative_to(PACKAGE))
-    for node in ast.walk(TREES[path]):
+    for node in ast.walk(tree_of(path)):
         if isinstance(node, ast.Call):
             called = ast.unparse(node.func)
             assert relative in CALLS.get(called, (relative,)), f"{relative} calls {called}"
@@ -316,7 +322,7 @@ def state(tree):
 
 @for_each_module
 def test_no_module_keeps_state(path):
-    assert not set(state(TREES[path]))
+    assert not set(state(tree_of(path)))
 
 
 def patches(tree):
@@ -339,7 +345,7 @@ def patches(tree):
 
 @for_each_module
 def test_no_function_of_another_module_is_replaced(path):
-    found = {f"{path.name}: {name}" for name in patches(TREES[path])}
+    found = {f"{path.name}: {name}" for name in patches(tree_of(path))}
     assert not found - set(KNOWN_PATCHES)
 
 
@@ -437,12 +443,12 @@ def openings(tree):
 @for_each_module
 def test_files_are_opened_through_the_workspace(path):
     name = path.relative_to(PACKAGE).as_posix()
-    assert name in OPENERS or not list(openings(TREES[path]))
+    assert name in OPENERS or not list(openings(tree_of(path)))
 
 
 def test_listed_openers_open():
     for name in OPENERS:
-        assert list(openings(TREES[PACKAGE / name])), name
+        assert list(openings(tree_of(PACKAGE / name))), name
 
 
 @pytest.mark.parametrize(
@@ -471,7 +477,7 @@ def own_imports(path):
     The version of the package, which its first module defines, is no part of a cycle.
     """
     package = dotted(path) if path.name == "__init__.py" else dotted(path)[:-1]
-    for node in ast.walk(TREES[path]):
+    for node in ast.walk(tree_of(path)):
         if not isinstance(node, ast.ImportFrom) or not node.level:
             continue
         base = package[: len(package) - node.level + 1]
@@ -596,7 +602,7 @@ def test_no_code_decides_by_the_text_of_a_message(path):
     name = path.relative_to(PACKAGE).as_posix()
     found = [
         f"{name}:{line}: {function} compares a text; compare codes and data"
-        for function, line in _text_decisions(TREES[path])
+        for function, line in _text_decisions(tree_of(path))
         if (name, function) not in READ_TEXTS
     ]
     assert not found
@@ -619,7 +625,7 @@ def test_decisions_by_text_are_seen(code):
 
 def test_listed_readers_of_texts_exist():
     for name, function in READ_TEXTS:
-        assert function in [found for found, _ in _text_decisions(TREES[PACKAGE / name])]
+        assert function in [found for found, _ in _text_decisions(tree_of(PACKAGE / name))]
 
 
 FORMS_WITH_CODE = frozenset(("pickle", "cPickle", "marshal", "shelve", "dill", "joblib"))
@@ -647,7 +653,7 @@ def forms_with_code(tree):
 @for_each_module
 def test_no_file_is_read_in_a_form_that_runs_code(path):
     if path.relative_to(PACKAGE).as_posix() not in BETWEEN_PROCESSES:
-        assert not list(forms_with_code(TREES[path]))
+        assert not list(forms_with_code(tree_of(path)))
 
 
 def test_forms_that_run_code_are_seen():

@@ -112,22 +112,33 @@ def run(tmp_path):
     return start
 
 
-MAIN = (write_several, replace_folder, replace_folder_without_exchange)
+MAIN = [a.__name__ for a in (write_several, replace_folder, replace_folder_without_exchange)]
+STEP = 4
+"""Of so many events one is a fault by default, another for each kind; slow tests try all."""
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=() if a in MAIN else pytest.mark.slow) for n, a in ACTIONS.items()],
-)
+@pytest.mark.parametrize("name", MAIN)
+def test_old_or_new_at_some_events(name, kind, run):
+    check_events(name, kind, run, 1 + KINDS.index(kind), STEP)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("name", ACTIONS)
 def test_old_or_new_and_nothing_else(name, kind, run):
+    check_events(name, kind, run, 1, 1)
+
+
+def check_events(name, kind, run, first, step):
+    """Run an action with a fault at each of some events."""
     action = ACTIONS[name]
     root, before, code, count = run(action)
     after = read_tree(root)
     assert (code, list_hidden(after)) == (0, set())
     assert after != before
     assert count >= 8
-    for number in range(1, count + 1):
+    for number in range(first, count + 1, step):
         root, before, code, _ = run(action, kind, number)
         now = read_tree(root)
         if kind == "kill":

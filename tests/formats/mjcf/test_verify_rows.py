@@ -1,5 +1,7 @@
 """The rows of the comparison follow the options, and the tables behind them agree."""
 
+from dataclasses import replace
+
 import pytest
 
 from urdftool.compare.check import is_faithful
@@ -46,8 +48,15 @@ CHOICES = {
 }
 
 
-@pytest.mark.parametrize("choices", CHOICES.values(), ids=CHOICES)
-@pytest.mark.parametrize("other", OTHERS.values(), ids=OTHERS)
+def list_pairs():
+    """List each robot with each choice; of the pairs half is slow, with each of both in others."""
+    for row, (other, text) in enumerate(OTHERS.items()):
+        for column, (name, choices) in enumerate(CHOICES.items()):
+            marks = [pytest.mark.slow] * ((row + column) % 2)
+            yield pytest.param(text, choices, marks=marks, id=f"{other}-{name}")
+
+
+@pytest.mark.parametrize(("other", "choices"), list(list_pairs()))
 def test_an_export_is_faithful(write, other, choices):
     source = load(write("r.urdf", robot(*CHAIN, other)))
     options = Options(**choices)
@@ -111,20 +120,25 @@ FUSED = (
 )
 
 
-@pytest.mark.parametrize("what", FUSED)
-def test_a_change_of_a_model_with_merged_links_is_found(what):
-    from dataclasses import replace
-
-    from lxml import etree
-
+@pytest.fixture(scope="module")
+def merged():
+    """A robot, the options that merge its links, and what is written of it."""
     from measure.planted.measure import FOLDER, MJCF
-    from measure.planted.mjcf import CHANGES
 
     source, options = load(FOLDER / "everything.urdf"), replace(MJCF, fuse=True)
-    written = write_mjcf(source, options)
+    return source, options, write_mjcf(source, options)
+
+
+@pytest.mark.parametrize("what", FUSED)
+def test_a_change_of_a_model_with_merged_links_is_found(what, merged):
+    from lxml import etree
+
+    from measure.planted.mjcf import CHANGES
+
+    source, options, written = merged
     root = etree.fromstring(written.text.encode())
     next(planted for planted in CHANGES if planted.what == what).edit(root)
-    written.files[written.main] = etree.tostring(root)
+    written = replace(written, files=written.files | {written.main: etree.tostring(root)})
     checks = verify_copy(source, options, written)
     assert "fused" in [check.name for check in checks if check.verdict == "differs"]
 
