@@ -191,8 +191,18 @@ def _describe_stale(baseline: Baseline, stale: list[Entry]) -> str:
 
 
 def _report_unread(console: Console, reports: Iterable[Report]) -> None:
-    """Print what readers of SDF and MJCF left out, once for each kind; all with ``-v``."""
-    findings = [finding for report in reports for finding in report.unread]
+    """Print what readers of SDF and MJCF left out, once for each kind; all with ``-v``.
+
+    What a finding of a rule is about is not repeated.
+    """
+    reports = tuple(reports)
+    known = {(f.location.path, f.location.start) for report in reports for f in report.findings}
+    findings = [
+        finding
+        for report in reports
+        for finding in report.unread
+        if (finding.location.path, finding.location.start) not in known
+    ]
     if not findings:
         return
     from ..formats.common.loss_report import format_lines

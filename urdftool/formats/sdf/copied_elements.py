@@ -6,13 +6,12 @@ from ...model.block_elements import list_model_elements
 from ...model.elements import Joint, Link
 from ...model.pose import Pose, rotation_from_rpy
 from ...model.read import parse_numbers
-from ...rules.gazebo.block_values import describe_required_value
+from ...model.sdf_schema import find_requirement, get_children
 from ...source.document import Element
 from ..common.naming import get_free_name
 from .imu import is_old_noise
 from .pose import set_pose
 from .translation import Translation
-from .vocabulary import DE_FACTO, ELEMENTS
 from .xml import Node, add, append_comment, append_copy, format_one_line
 
 PLACED = frozenset(
@@ -53,10 +52,8 @@ def copy_raw_element(
         text = f"<{element.tag}> of a <gazebo> block has no name; it is not exported"
         t.report_loss("element", text, element, about)
         return None
-    if describe_required_value(element):
-        text = (
-            f"<{element.tag}> is '{element.text.strip()}', not {describe_required_value(element)}"
-        )
+    if required := find_requirement(str(node.tag), element):
+        text = f"<{element.tag}> is '{element.text.strip()}', not {required.text}"
         t.report_loss("extension", f"{text}; it is not exported", element, about)
         return None
     if about is None and element.tag in OWN_FRAMES - {"joint"} and _is_taken(node, element):
@@ -91,8 +88,8 @@ def _is_known(parent: str, element: Element) -> bool:
     prefix, colon, _ = element.tag.partition(":")
     if colon:
         return prefix not in BEFORE_SDF
-    known = ELEMENTS.get(parent)
-    return known is None or element.tag in known or element.tag in DE_FACTO
+    known = get_children(parent, newest=True)
+    return known is None or element.tag in known
 
 
 def remove_invalid(
@@ -111,9 +108,9 @@ def remove_invalid(
     for child, source in zip(list(made), element.children, strict=True):
         if is_old_noise(source):
             made.remove(child)
-        elif required := describe_required_value(source):
+        elif required := find_requirement(str(made.tag), source):
             made.remove(child)
-            text = f"<{source.tag}> of <{made.tag}> is '{source.text.strip()}', not {required}"
+            text = f"<{source.tag}> of <{made.tag}> is '{source.text.strip()}', not {required.text}"
             t.report_loss("extension", f"{text}; it is not exported", source, about)
         elif _is_known(element.tag, source):
             remove_invalid(child, t, source, about)

@@ -5,6 +5,7 @@ FILES = (
     "references",
     "vocabulary",
     "values",
+    "sdf_values",
     "setting_values",
     "settings",
     "lumping",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 
 from ...model.block_elements import list_model_elements
 from ...model.elements import Joint, Robot
@@ -33,7 +33,7 @@ def find_kept_links(robot: Robot) -> set[str] | None:
     return kept
 
 
-def is_joint_kept(robot: Robot, joint: Joint, kept: set[str]) -> bool:
+def is_joint_kept(robot: Robot, joint: Joint, kept: Set[str]) -> bool:
     """Tell whether a joint remains a joint in Gazebo.
 
     Args:
@@ -44,7 +44,7 @@ def is_joint_kept(robot: Robot, joint: Joint, kept: set[str]) -> bool:
     return joint.child in kept and not is_lumped(robot, joint.child)
 
 
-def is_named_as_link(robot: Robot, joint: Joint, kept: set[str]) -> bool:
+def is_named_as_link(robot: Robot, joint: Joint, kept: Set[str]) -> bool:
     """Tell whether Gazebo rejects the model because a joint and a link have the same name.
 
     Args:

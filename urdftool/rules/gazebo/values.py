@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Joint, Robot
 from ...model.read import number
+from ...model.sdf_schema import find_requirement
 from ...model.settings import JOINT_TAGS, get_text
 from ...source.document import Element
 from ..fix import (
@@ -23,9 +24,10 @@ from ..fix import (
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..simulation.mujoco_values import describe_required_setting, find_setting_elements
 from ..unexpanded import is_unexpanded
-from .block_values import describe_required_keyword_value, describe_required_value, get_kind
+from .block_values import describe_required_keyword_value, get_kind
 from .contact import get_contact_role
 from .keywords import NUMBERS
+from .sdf_values import iterate_sdf_elements
 
 APPLIES_TO = ("gazebo",)
 
@@ -94,12 +96,11 @@ def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
                     text = f"<{element.tag}> of '{name}' is '{get_text(element)}', not {required}"
                     kind = get_kind(element.tag)
                     yield Problem(part, text, at=element, data={"holder": "keyword", "kind": kind})
-        for element in _iterate_sdf_elements(block.element):
-            if required := describe_required_value(element):
-                above = element.parent.tag if element.parent is not None else block.element.tag
+        for above, element in iterate_sdf_elements(robot, block):
+            if needed := find_requirement(above, element):
                 yield Problem(
                     parts[0] if parts else block.element,
-                    f"<{element.tag}> of <{above}> is '{element.text.strip()}', not {required}",
+                    f"<{element.tag}> of <{above}> is '{get_text(element)}', not {needed.text}",
                     at=element,
                     data={
                         "holder": "element",
@@ -115,16 +116,6 @@ def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
                     at=element.locate_attribute(attribute),
                     data={"holder": "mujoco"},
                 )
-
-
-def _iterate_sdf_elements(block: Element) -> Iterator[Element]:
-    """Yield the elements of a block that are not in plugins, in document order."""
-    todo = [*reversed(block.children)]
-    while todo:
-        element = todo.pop()
-        if element.tag != "plugin":
-            yield element
-            todo.extend(reversed(element.children))
 
 
 def _is_loop_placement(block: Element, element: Element) -> bool:

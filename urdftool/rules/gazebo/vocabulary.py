@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import GazeboExtension, Robot
+from ...model.sdf_schema import get_children
 from ...source.document import Element
 from ..fix import FixContext, Proposal, find_element, rename_element, unsafe
 from ..rule import ERROR, UNSAFE, WARNING, Problem, rule
 from ..words import find_nearest, fold, split_words
 from .keywords import JOINT_KEYWORDS, KEYWORDS, LINK_KEYWORDS, ROBOT_KEYWORDS
-from .sdf_names import SDF_CHILDREN
 
 APPLIES_TO = ("gazebo",)
 
@@ -90,14 +90,18 @@ def _get_known_elements(robot: Robot, block: GazeboExtension) -> tuple[frozenset
     """Get the elements that a block may contain, and the SDF element that it is copied to."""
     name = block.reference
     if not name:
-        return ROBOT_KEYWORDS | SDF_CHILDREN["model"], "model"
+        return ROBOT_KEYWORDS | _get_children("model"), "model"
     if name in robot.link:
-        known = LINK_KEYWORDS | SDF_CHILDREN["link"]
-        both = JOINT_KEYWORDS | SDF_CHILDREN["joint"] if name in robot.joint else frozenset()
+        known = LINK_KEYWORDS | _get_children("link")
+        both = JOINT_KEYWORDS | _get_children("joint") if name in robot.joint else frozenset()
         return known | both, "link"
     if name in robot.joint:
-        return JOINT_KEYWORDS | SDF_CHILDREN["joint"], "joint"
+        return JOINT_KEYWORDS | _get_children("joint"), "joint"
     return frozenset(), ""
+
+
+def _get_children(tag: str) -> frozenset[str]:
+    return get_children(tag) or frozenset()
 
 
 def _report_misspelled(
@@ -121,7 +125,7 @@ def _report_misspelled(
 
 def _check_sdf(element: Element) -> Iterator[Problem]:
     """Report misspelled elements in a sensor and its descendants."""
-    known = SDF_CHILDREN.get(element.tag)
+    known = get_children(element.tag)
     for child in element.children:
         if child.tag == "plugin":
             yield from _check_plugin(child)
