@@ -404,6 +404,7 @@ OPENERS = {
     "fmt/discover.py": "lists the folder that the user names",
     "lint/discover.py": "lists the folder that the user names",
     "lint/moot.py": OWN,
+    "model/sdf_schema.py": OWN,
     "output.py": OUTPUTS,
     "report/findings_html.py": OWN,
     "viewer/server.py": OWN,

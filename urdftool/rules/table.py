@@ -242,8 +242,12 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "tags": ("missing-gazebo-tags", "missing-gazebo-material", "missing-friction"),
         "references": ("dangling-reference", "misplaced-extension", "conflicting-references"),
         "vocabulary": ("unknown-extension",),
-        "values": ("bad-extension-number", "half-friction", "implausible-friction"),
-        "sdf_values": ("invalid-sdf-value",),
+        "values": (
+            "bad-extension-number",
+            "half-friction",
+            "implausible-friction",
+            "invalid-sdf-value",
+        ),
         "setting_values": ("setting-out-of-range",),
         "settings": (
             "deprecated-cfm-damping",
@@ -422,7 +426,6 @@ APPLIES_TO: dict[str, tuple[str, ...]] = {
     "gazebo.references": ("gazebo",),
     "gazebo.vocabulary": ("gazebo",),
     "gazebo.values": ("gazebo",),
-    "gazebo.sdf_values": ("gazebo",),
     "gazebo.setting_values": ("gazebo", "contact"),
     "gazebo.lumping": ("gazebo",),
     "gazebo.sensors": ("gazebo",),

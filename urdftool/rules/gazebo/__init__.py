@@ -5,7 +5,6 @@ FILES = (
     "references",
     "vocabulary",
     "values",
-    "sdf_values",
     "setting_values",
     "settings",
     "lumping",
