@@ -284,3 +284,18 @@ def test_a_base_at_the_world_is_no_difference(write, urdftool):
     )
     result = urdftool("verify", one, three)
     assert (result.code, result.out.count("joint 'j'")) == (1, 1)
+
+
+MIMIC = """<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+<joint name="one" type="continuous"><parent link="a"/><child link="b"/></joint>
+<joint name="two" type="continuous"><parent link="b"/><child link="c"/>
+<mimic joint="one" multiplier="-2" offset="0.3"/></joint>
+<joint name="three" type="continuous"><parent link="c"/><child link="d"/>
+<mimic joint="{}" multiplier="{}" offset="{}"/></joint></robot>"""
+
+
+@pytest.mark.parametrize(("offset", "code"), [(-0.05, 0), (-0.06, 1)])
+def test_a_chain_of_mimics_is_equal_to_its_last_leader(urdftool, write, offset, code):
+    one = write("chain.urdf", MIMIC.format("two", 0.5, -0.2))
+    two = write("leader.urdf", MIMIC.format("one", -1, offset))
+    assert urdftool("verify", one, two).code == code

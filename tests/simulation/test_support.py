@@ -8,6 +8,7 @@ import pytest
 from tests.simulation.robots import body, inertial, kinds, runs
 from urdftool.api.simulate import run_trials as simulate
 from urdftool.model.load import load
+from urdftool.report.simulate import format_text
 from urdftool.simulation.checks.final_state import measure_final_state
 from urdftool.simulation.checks.support import check_support
 from urdftool.simulation.recording import Contact
@@ -66,6 +67,21 @@ def test_the_ground_carries_the_whole_weight(write, text):
     weight = 9.81 * run.bodies.mass
     assert run.recording.carried == pytest.approx(weight, rel=0.02)
     assert run.recording.carrying
+
+
+def test_a_steep_slope_carries_what_presses_on_it(write):
+    assert _judged(write, BOX, slope=0.8, friction=2.0).stands  # cos 0.8 is 0.7
+
+
+@pytest.mark.parametrize(("height", "narrow"), [(1.7, True), (0.8, False)])
+def test_a_small_tilt_that_tips_a_robot_over_is_named(write, height, narrow):
+    column = body(f'<box size="0.05 0.05 {height}"/>', 1, (height**2 / 12, height**2 / 12, 0.0005))
+    robot = load(write("robot.urdf", column))
+    (run,) = simulate(robot, Settings())
+    verdict = judge(robot, run)
+    assert verdict.stands
+    text = format_text(robot, [verdict])
+    assert ("tips the robot over" in text) is narrow
 
 
 def test_a_robot_beside_its_support_is_not_supported(write):

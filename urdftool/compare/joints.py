@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from ..mechanics.reference import Array
-from ..model.elements import BALL_TYPES, Joint, Limit, Robot
-from ..model.kinematics import get_limits
+from ..model.elements import BALL_TYPES, Joint, Limit, Mimic, Robot
+from ..model.kinematics import follow_mimic_chain, get_limits
 from ..model.part import Part
 from .bodies import HINGES, compute_axis
 from .difference import Comparison, Difference
@@ -236,6 +237,13 @@ def _compare_dynamics(match: JointMatch, comparison: Comparison) -> None:
         )  # fmt: skip
 
 
+def _follow_chain(joint: Joint, robot: Robot) -> Mimic:
+    """Return how a joint depends on the last leader of its chain of ``<mimic>``."""
+    assert joint.mimic is not None
+    leader, multiplier, offset = follow_mimic_chain(joint, robot.joint)
+    return replace(joint.mimic, joint=leader, multiplier=multiplier, offset=offset)
+
+
 def compare_mimic(
     pair: Pair, one: Joint, two: Joint, signs: dict[str, float], comparison: Comparison
 ) -> None:
@@ -256,6 +264,8 @@ def compare_mimic(
         words = [None if m is None else f"{m.multiplier:g} × {m.joint}" for m in parts]
         _add(comparison, match, "tree", "mimic", (words[0], words[1]), "", math.inf, "", parts)
         return
+    if pair.joints.get(x.joint, x.joint) != y.joint:  # one may name the last leader of a chain
+        x, y = _follow_chain(one, pair.a.robot), _follow_chain(two, pair.b.robot)
     leader = pair.joints.get(x.joint, x.joint)
     same = 0.0 if leader == y.joint else math.inf
     _add(comparison, match, "tree", "mimic joint", (x.joint, y.joint), "", same, "", parts)

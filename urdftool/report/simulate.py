@@ -105,7 +105,8 @@ def _list_rows(verdict: Verdict) -> Iterator[tuple[str, str]]:
         if rest.margin is not None:
             yield (
                 "static margin",
-                f"{1000 * rest.margin:.1f} mm from the center of mass to the nearest edge",
+                f"{1000 * rest.margin:.1f} mm from the center of mass to the nearest edge"
+                + _describe_tipping(verdict),
             )
     if run.swept:
         blocked = sum(fault.code == "blocked" for fault in verdict.faults)
@@ -120,7 +121,20 @@ def describe_holding(verdict: Verdict) -> str:
     run = verdict.run
     means = run.recording.capabilities.holds_by
     passes = "" if run.settings.self_collision else "; no contact between links"
-    return f"{means} within effort limits ('export mjcf': servos, which yield){passes}"
+    apart = ""
+    if not run.recording.capabilities.loads_leaders and any(j.leader for j in run.bodies.joints):
+        apart = "; mimic joints by motors of their own, whose load does not reach their leaders"
+    return f"{means} within effort limits{apart} ('export mjcf': servos, which yield){passes}"
+
+
+def _describe_tipping(verdict: Verdict) -> str:
+    """Say which tilt tips a robot over on level ground, if it is small."""
+    rest, run = verdict.rest, verdict.run
+    if rest.margin is None or rest.center is None or rest.margin < 0 or run.settings.slope:
+        return ""
+    tilt = math.atan2(rest.margin, rest.center[2])
+    small = tilt < run.thresholds.narrow_tilt
+    return f": a tilt of {math.degrees(tilt):.1f}° tips the robot over" * small
 
 
 def _format_faults(faults: Sequence[Fault], paint: Painter) -> Iterator[str]:

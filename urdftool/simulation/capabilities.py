@@ -22,6 +22,7 @@ class Capabilities:
         uses_contact_stiffness: Whether ``<kp>`` and ``<kd>`` of the file apply.
         creeps: Whether contacts may let a robot at rest creep.
         holds_massless_root: Whether a root without mass is fixed at its start pose.
+        loads_leaders: Whether what loads a mimic joint loads its leader.
         holds_by: What holds a joint at its target, for people.
     """
 
@@ -36,4 +37,5 @@ class Capabilities:
     uses_contact_stiffness: bool
     creeps: bool
     holds_massless_root: bool
+    loads_leaders: bool
     holds_by: str

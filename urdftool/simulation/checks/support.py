@@ -38,12 +38,14 @@ def _report_unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[F
     """Report a robot at rest that the ground does not carry within the support polygon."""
     bounds = run.thresholds
     weight = run.settings.gravity * math.fsum(body.weight[0] for body in run.bodies.bodies)
+    weight *= math.cos(run.settings.slope)  # what presses on the ground
     carried = run.recording.carried
     least = max(bounds.support_margin * run.bodies.size, bounds.support_margin_min)
     root = robot.link[run.bodies.bodies[0].name]
     names = quote_names(_list_supporting_links(run))
     if weight > 0 and carried < bounds.carried_weight * weight:
         what = f"the ground carries only {carried:.3g} N of the robot's weight of {weight:.3g} N"
+        what += " across the slope" * (run.settings.slope > 0)
     elif state.margin is not None and state.margin < -least:
         what = f"the center of mass is {-1000 * state.margin:.0f} mm outside the support polygon"
         what += f" of {names}"

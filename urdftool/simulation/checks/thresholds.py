@@ -47,6 +47,10 @@ class Thresholds:
     """Time within which a robot at rest stays within these bounds if it goes on as it moves [s].
     Source: chosen, the default duration."""
 
+    narrow_tilt: float = math.radians(2)
+    """Tilt that tips the robot over, below which the report names it [rad]. Source: chosen, that of
+    exports."""
+
     # --- final state ----------------------------------------------------------------------------
 
     fall_sizes: float = 2.0

@@ -42,6 +42,7 @@ class MuJoCo(Engine):
         uses_contact_stiffness=False,
         creeps=False,
         holds_massless_root=False,
+        loads_leaders=True,
         holds_by="dry friction, then a servo,",
     )
 

@@ -37,6 +37,7 @@ class PyBullet(Engine):
         uses_contact_stiffness=True,
         creeps=True,
         holds_massless_root=True,
+        loads_leaders=False,
         holds_by="position motors",
     )
 
