@@ -23,6 +23,9 @@ from .programs import restrict_path
 
 ROOT = Path(__file__).resolve().parents[2]
 FIXTURES = ROOT / "fixtures"
+LARGE = ("rules", "effects")
+"""Folders of fixtures with many files, which are copied only for pages that name them."""
+
 BLOCK = re.compile(r"(?<=```console\n).*?(?=```)", re.DOTALL)
 FILE = re.compile(r"<!-- file: (\S+) -->\n\n```\w+\n(.*?)```", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\([^)]*pictures/([^)/]+)\)")
@@ -85,7 +88,8 @@ def insert_output(text: str, pictures: Path | None = None) -> str:
         return text
     with tempfile.TemporaryDirectory() as folder:
         here = Path(folder)
-        shutil.copytree(FIXTURES, here / "fixtures")
+        unnamed = [name for name in LARGE if f"fixtures/{name}" not in text]
+        shutil.copytree(FIXTURES, here / "fixtures", ignore=shutil.ignore_patterns(*unnamed))
         for name, content in FILE.findall(text):
             (here / name).write_text(content, "utf-8")
 

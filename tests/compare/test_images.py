@@ -47,6 +47,7 @@ def compare_textures(one, other):
     return [(d.what, d.values) for d in comparison.differences if d.row == "textures"]
 
 
+@pytest.mark.usefixtures("stages_are_read_here")
 @pytest.mark.parametrize(
     "kind",
     [

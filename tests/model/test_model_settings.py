@@ -51,6 +51,7 @@ FRICTIONS = [
 ]
 
 
+@pytest.mark.usefixtures("stages_are_read_here")
 @pytest.mark.parametrize(("blocks", "contact", "friction"), list_cases(FRICTIONS, 3))
 @pytest.mark.library("mujoco")
 @pytest.mark.library("pxr")
@@ -132,6 +133,7 @@ def test_rows_have_names_and_paths_of_their_own():
     assert all(row.path for row in SURFACE)
 
 
+@pytest.mark.usefixtures("stages_are_read_here")
 @pytest.mark.library("pxr")
 def test_restitution_reaches_the_formats_that_have_it(write, tmp_path):
     bounce = "<bounce><restitution_coefficient>0.3</restitution_coefficient></bounce>"

@@ -519,8 +519,8 @@ def attack(home, urdftool, case, command):
 
 
 def _is_slow(number, title, name):
-    """Tell whether a pair is left to the long run; each attack is in a quarter of the commands."""
-    return title not in ("lint", "export urdf") and list(ATTACKS).index(name) % 4 != number % 4
+    """Tell whether a pair is left to the long run; each attack is in an eighth of the commands."""
+    return title not in ("lint", "export urdf") and list(ATTACKS).index(name) % 8 != number % 8
 
 
 PAIRS = [
