@@ -15,7 +15,12 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "missing-name",
         ),
         "vocabulary": ("unknown-element", "unknown-attribute", "wrong-case-keyword"),
-        "shape": ("repeated-element", "several-shapes-in-geometry", "empty-geometry"),
+        "shape": (
+            "repeated-element",
+            "missing-attribute",
+            "several-shapes-in-geometry",
+            "empty-geometry",
+        ),
         "numbers": ("wrong-arity", "not-a-number", "tab-or-newline-in-vector"),
         "magnitude": ("immense-number",),
         "reference": ("padded-reference",),

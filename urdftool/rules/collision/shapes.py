@@ -127,10 +127,11 @@ def unsupported_shape(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
         geometry = shape.geometry
-        if isinstance(geometry, UnknownShape) and ":" not in geometry.element.tag:
+        if isinstance(geometry, UnknownShape) and not geometry.element.tag.startswith("drake:"):
             tag = geometry.element.tag
             rejected = keeps or isinstance(shape, Collision)
-            effects = [_UNKNOWN_SHAPE, "pybullet", "drake", *["mujoco"] * rejected]
+            effects = [_UNKNOWN_SHAPE, "pybullet", *["mujoco"] * rejected]
+            effects += ["drake"] * (":" not in tag)
             if tag in VOCABULARY:
                 message = _describe_unknown_shape(link, shape, geometry)
                 yield Problem(link, message, at=geometry, effects=effects)

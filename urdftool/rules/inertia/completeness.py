@@ -96,7 +96,7 @@ def _find_missing(inertial: Inertial) -> tuple[list[str], Inertial | None]:
     mass, inertia = element.find_child("mass"), element.find_child("inertia")
     if mass is None:
         missing.append("<mass>")
-    elif not mass.attributes:
+    elif all(":" in name for name in mass.attributes):
         missing.append("mass value")
     if inertia is None:
         missing.append("<inertia>")

@@ -285,7 +285,7 @@ def _find_missing_ends(joint: Joint) -> Iterator[tuple[str, Element | None]]:
         if element is None:
             if tag not in find_misspelled_children(joint.xml).values():
                 yield tag, None
-        elif element.attributes.keys() <= {"link"}:
+        elif all(key == "link" or ":" in key for key in element.attributes):
             yield tag, element
 
 

@@ -21,7 +21,12 @@ from ..fix import (
 from ..mujoco import keeps_visuals
 from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, rule
 from .owner import describe_owner
-from .vocabulary_table import VOCABULARY, find_misspelled_children, get_census
+from .vocabulary_table import (
+    VOCABULARY,
+    find_misspelled_attributes,
+    find_misspelled_children,
+    get_census,
+)
 
 
 @rule(
@@ -55,6 +60,71 @@ def repeated_element(robot: Robot) -> Iterator[Problem]:
                     )
                 elif child.tag in single:
                     seen.add(child.tag)
+
+
+_NEEDED = {
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "axis": ("xyz",),
+    "color": ("rgba",),
+}
+"""Attributes without which an element has no meaning; others are reported by other rules."""
+
+_OF_VISUAL = "gz, gazebo-classic, pinocchio (a visual)"
+_OF_COLLISION = "gz, gazebo-classic, pinocchio (a collision)"
+_OF_SHAPE = "pybullet (a shape)"
+_OF_AXIS = "gz, gazebo-classic (an axis)"
+_OF_COLOR = ("gz, gazebo-classic (a color)", "drake (a color)")
+
+
+@rule(
+    ERROR,
+    effects={
+        _OF_VISUAL: "load the link without its visuals and collisions, with an error in the log",
+        _OF_COLLISION: "load the link without its collisions, with an error in the log",
+        _OF_SHAPE: "rejects the robot",
+        _OF_AXIS: "reject the model: the axis is 0 0 0",
+        _OF_COLOR[0]: "load the robot without the color",
+        _OF_COLOR[1]: "rejects the file",
+        "mujoco": "rejects the file: required attribute missing",
+    },
+)
+def missing_attribute(robot: Robot) -> Iterator[Problem]:
+    """A shape, axis or color has none of its numbers.
+
+    A box needs ``size``, a cylinder ``radius`` and ``length``, a sphere ``radius``, an axis ``xyz``
+    and a color ``rgba``. urdfdom stops reading the link at a shape without its size: a link with
+    such a visual also loses its collisions, and ``check_urdf`` still reports success.
+    """
+    known = get_census(robot).known
+    keeps = keeps_visuals(robot)
+    for tag, names in _NEEDED.items():
+        for element in known[tag]:
+            misspelled = set(find_misspelled_attributes(element).values())
+            missing = [n for n in names if n not in element.attributes and n not in misspelled]
+            if missing:
+                what = " and ".join(missing)
+                them = "them" if len(missing) > 1 else "it"
+                yield Problem(
+                    element,
+                    f"<{tag}> of {describe_owner(element)} has no {what}; write {them}",
+                    effects=_list_effects(element, keeps),
+                )
+
+
+def _list_effects(element: Element, keeps: bool) -> list[str]:
+    """List what readers do without the numbers of an element; ``keeps``: MuJoCo reads visuals."""
+    if element.tag == "axis":
+        return [_OF_AXIS, "mujoco"]
+    if element.tag == "color":
+        return [*_OF_COLOR, "mujoco"]
+    above = element.parent
+    while above is not None and above.tag not in ("visual", "collision"):
+        above = above.parent
+    if above is not None and above.tag == "visual":
+        return [_OF_VISUAL, _OF_SHAPE, *["mujoco"] * keeps]
+    return [_OF_COLLISION, _OF_SHAPE, "mujoco"]
 
 
 def list_shapes(geometry: Element) -> list[Element]:

@@ -226,7 +226,7 @@ def find_misspelled_attributes(element: Element) -> dict[str, str]:
     """Find misspelled attributes of an element, with the correct names."""
     known = get_attributes(element.tag)
     free = [name for name in known if name not in element.attributes]
-    strange = [name for name in element.attributes if name not in known]
+    strange = [name for name in element.attributes if name not in known and ":" not in name]
     return {name: word for name in strange if (word := suggest_word(name, free))}
 
 
@@ -235,6 +235,6 @@ def find_misspelled_children(element: Element | None) -> dict[str, str]:
     if element is None:
         return {}
     known = VOCABULARY[element.tag].children
-    strange = {child.tag for child in element.children if child.tag not in known}
+    strange = {c.tag for c in element.children if c.tag not in known and ":" not in c.tag}
     strange -= DIALECTS.get(element.tag, frozenset())
     return {tag: word for tag in strange if (word := suggest_word(tag, known))}
