@@ -136,6 +136,7 @@ class Comparison:
         rows: Compared properties.
         differences: What differs.
         not_comparable: Properties that a format of the two does not have.
+        partial: Rows with such properties.
         links: Names of matched links in the second robot, by those in the first.
         joints: Names of matched joints in the second robot, by those in the first.
         worst: Largest difference of each row; rows of which no robot has a part are absent.
@@ -147,6 +148,7 @@ class Comparison:
     rows: tuple[Row, ...]
     differences: list[Difference] = field(default_factory=list)
     not_comparable: list[str] = field(default_factory=list)
+    partial: set[str] = field(default_factory=set)
     links: dict[str, str] = field(default_factory=dict)
     joints: dict[str, str] = field(default_factory=dict)
     worst: dict[str, float] = field(default_factory=dict)
@@ -209,8 +211,10 @@ class Comparison:
         found = ((row.name, self.explain_skipped(row.name)) for row in self.rows)
         return {**self.skipped, **{row: why for row, why in found if why}}
 
-    def record_not_comparable(self, what: str) -> None:
-        """Record a property that one of the formats does not have."""
+    def record_not_comparable(self, row: str, what: str) -> None:
+        """Record a property of a row that one of the formats does not have."""
+        if row in self.tolerances:
+            self.partial.add(row)
         if what not in self.not_comparable:
             self.not_comparable.append(what)
 

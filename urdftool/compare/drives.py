@@ -94,7 +94,7 @@ def _compare(
     for what, unit in _UNITS.items():
         x, y = getattr(one, what), getattr(two, what)
         if (x is None) != (y is None) and what != "gear" and "urdf" in pair.formats:
-            comparison.record_not_comparable("gains of actuators: not in every URDF")
+            comparison.record_not_comparable(_ROW, "gains of actuators: not in every URDF")
         if x is None or y is None:
             continue
         amount = measure(x, y)

@@ -172,7 +172,7 @@ def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comp
         unit = get_unit(one, "limit", what)
         limits = [_get_bound(limit, what) for limit in parts]
         if _is_unknown(pair, match, what):
-            comparison.record_not_comparable(f"limit of {what}: not in every MJCF")
+            comparison.record_not_comparable("limits", f"limit of {what}: not in every MJCF")
             continue
         x, y = limits
         values = _show(x), _show(y)

@@ -30,7 +30,7 @@ def compare_references(
         return
     for tag in OUTSIDE_ROWS:
         if any(getattr(joint, tag) is not None for joint in joints):
-            comparison.record_not_comparable(f"<{tag}>: not in every format")
+            comparison.record_not_comparable("limits", f"<{tag}>: not in every format")
 
 
 def list_references(one: Joint, two: Joint) -> Iterator[Difference]:

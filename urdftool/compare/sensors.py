@@ -122,7 +122,9 @@ def _split(
             if sensor.type in _ELEMENTARY:
                 yield sensor
             else:
-                comparison.record_not_comparable(f"sensors of type {sensor.type}: only in MJCF")
+                comparison.record_not_comparable(
+                    _ROW, f"sensors of type {sensor.type}: only in MJCF"
+                )
         else:
             yield from _expand(sensor, comparison)
 
@@ -136,7 +138,7 @@ def _expand(sensor: _Sensor, comparison: Comparison) -> Iterator[_Sensor]:
         suffixes = dict(pair for kind in KINDS for pair in kind.mjcf)
         tags = tuple((tag, suffixes[tag]) for tag in part.quantities)
     if not tags:
-        comparison.record_not_comparable(f"sensors of type {sensor.type}: not in MJCF")
+        comparison.record_not_comparable(_ROW, f"sensors of type {sensor.type}: not in MJCF")
     for tag, suffix in tags:
         if tag == "rangefinder":
             yield from _expand_rays(sensor, comparison)
@@ -152,7 +154,7 @@ def _expand_rays(sensor: _Sensor, comparison: Comparison) -> Iterator[_Sensor]:
     rays = 0 if count is None else int(count)
     if not 0 < rays <= MAX_RAYS:
         text = f"lidars of more than {MAX_RAYS} rays: not in MJCF"
-        comparison.record_not_comparable(text)
+        comparison.record_not_comparable(_ROW, text)
         return
     z, y = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
     for index in range(rays):

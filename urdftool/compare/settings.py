@@ -122,7 +122,7 @@ def compare_settings(
             continue
         if not all(_has(form, setting) for form in pair.formats):
             if x != setting.default or y != setting.default:
-                comparison.record_not_comparable(f"{what}: not in every format")
+                comparison.record_not_comparable(row, f"{what}: not in every format")
             continue
         places = locate(parts[0], owners[0]), locate(parts[1], owners[1])
         amount = measure_content(x, y)

@@ -13,6 +13,7 @@ from .difference import Comparison
 from .pair import Pair
 from .rows import LOOPS, NATIVE
 from .uncompared import UNREAD, Uncompared
+from .unreadable import list_unreadable
 
 
 class _Row(NamedTuple):
@@ -53,6 +54,7 @@ _ROWS = {
     "mocap": _Row(("base",), "*"),
     "created": _OTHERS,
     "attribute": _OTHERS,
+    "display-attribute": _OTHERS,
     "plugin": _OTHERS,
     "contradiction": _OTHERS,
     "nested-plugin": _Row(("plugins",)),
@@ -97,7 +99,7 @@ are recorded where they are compared.
 """
 
 NO_ROW = frozenset((
-    *("anchor", "articulation", "body", "camera", "custom", "display", "display-attribute"),
+    *("anchor", "articulation", "body", "camera", "custom", "display"),
     *("end-tag", "keyframe", "light", "mesh", "mesh-scale", "missing-model", "model"),
     *("not-well-formed", "scenery", "submesh", "units", "up-axis", "variant", "version", "warning"),
     *("hfield", "plane", "sdf"),
@@ -105,6 +107,9 @@ NO_ROW = frozenset((
 """Codes of what is around a robot, of how a file is read, of what is compared as it is written in
 two files of one format and moves nothing, and of shapes and images.
 """
+
+_OF_ONE_FORMAT = frozenset(("display-attribute",))
+"""Codes of what only two files of one format have; it moves nothing."""
 
 _SHAPE = "shape-"
 """Beginning of the codes of shapes of SDF."""
@@ -129,14 +134,26 @@ def list_unread(a: Robot, b: Robot) -> Iterator[Uncompared]:
     """
     if is_one_text(a, b):
         return
+    yield from _list_unreadable(a, b)
     sides = _collect(a, b), _collect(b, a)
     for code in dict.fromkeys((*sides[0], *sides[1])):
         one, two = (side.get(code, Counter()) for side in sides)
         is_known = a.format == b.format and all(text is not None for _, _, text in (*one, *two))
+        if code in _OF_ONE_FORMAT and a.format != b.format:
+            continue
         left = (one - two) + (two - one) if is_known else one + two
         for name, reason, _ in left:
             for row in _ROWS.get(code, _OTHERS).names:
                 yield Uncompared(row, UNREAD, name, reason)
+
+
+def _list_unreadable(a: Robot, b: Robot) -> Iterator[Uncompared]:
+    """Yield values of URDF that readers take differently, unless both have them in equal words."""
+    one, two = (Counter(list_unreadable(robot)) for robot in (a, b))
+    left = (one - two) + (two - one) if a.format == b.format else one + two
+    for part in left:
+        for row in part.rows:
+            yield Uncompared(row, UNREAD, part.name, part.reason)
 
 
 def list_unseen(a: Robot, b: Robot) -> Iterator[Uncompared]:

@@ -21,7 +21,7 @@ COPIED = (*KINDS, "custom", "keyframe", *MERGED)
 
 ACTUATORS = frozenset((
     "general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "muscle",
-    "adhesion", "dcmotor", "plugin",
+    "adhesion", "dcmotor", "orientation", "pid", "plugin",
 ))  # fmt: skip
 """Elements of ``<actuator>`` and of default classes."""
 
@@ -108,7 +108,7 @@ PARTS = {
     "body": (("mocap", "sleep", "user"), ()),
     "joint": (("actuatorfrcrange", "actuatorfrclimited"), ("group", "user")),
     "freejoint": ((), ("group", "user")),
-    "geom": (("fluidshape", "fluidcoef", "adhesion"), ()),
+    "geom": (("fluidshape", "fluidcoef", "adhesion"), ("user",)),
     "site": ((), ("group", "size", "type", "rgba", "user")),
     "camera": ((), ("mode", "target", "ipd", "projection", "user")),
     "light": ((), ("mode", "target", "attenuation", "exponent", "ambient", "active", "intensity",
