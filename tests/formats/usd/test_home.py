@@ -112,12 +112,24 @@ def test_the_home_is_compared(dog):
         assert rows[row].verdict == "differs"
 
 
-def test_a_joint_without_effort_has_a_drive_without_a_largest_force(tmp_path, write):
-    parts = link("a"), joint("j", "a", "b", "continuous"), link("b")
+@pytest.mark.parametrize("effort", ["", "0", "1e9"])
+def test_a_servo_without_effort_limit_has_the_largest_force_of_mjcf(tmp_path, write, effort):
+    limit = f'<limit effort="{effort}" velocity="1"/>' if effort else ""
+    parts = link("a"), joint("j", "a", "b", "continuous", limit), link("b")
     path = write("r.urdf", robot(*parts))
     made = read_joint(export(path, file="r.usda"), tmp_path, "j")
     assert made["drive:angular:physics:stiffness"] > 0
-    assert "drive:angular:physics:maxForce" not in made
+    (servo,) = tree(export_mjcf(path)).find("actuator")
+    largest = float(servo.get("forcerange").split()[1])
+    assert made["drive:angular:physics:maxForce"] == pytest.approx(largest)
+
+
+def test_a_negative_effort_limit_is_reported(write):
+    limit = '<limit lower="-1" upper="1" effort="-5" velocity="1"/>'
+    path = write("r.urdf", robot(link("a"), joint("j", "a", "b", "revolute", limit), link("b")))
+    for written in (export(path, file="r.usda", force=True), export_mjcf(path, force=True)):
+        [loss] = [one for one in written.losses if one.code == "lossy-effort"]
+        assert "-5 of joint 'j' is negative: 5 is written" in loss.message
 
 
 BOXES = (
@@ -157,13 +169,13 @@ def test_links_that_overlap_at_home_never_collide(write, tmp_path, height, more,
         assert ours == theirs
 
 
-def test_an_effort_of_zero_is_left_out(tmp_path, write):
+def test_an_effort_of_zero_is_not_written(tmp_path, write):
     import urdftool
 
     limit = '<limit lower="-1" upper="1" effort="0" velocity="1"/>'
     path = write("r.urdf", robot(link("a"), joint("j", "a", "b", "revolute", limit), link("b")))
     written = urdftool.export_usd(urdftool.load(path), tmp_path / "r.usda", verify=True)
-    assert "drive:angular:physics:maxForce" not in read_joint(written, tmp_path, "j")
+    assert read_joint(written, tmp_path, "j")["drive:angular:physics:maxForce"] > 0
     assert rules(written).count("lossy-effort") == 1
     rows = {check.name: check.verdict for check in written.checks}
     assert rows["limits"] in ("equal", "announced")

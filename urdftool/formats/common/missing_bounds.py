@@ -1,4 +1,4 @@
-"""The warning about a revolute joint without bounds that turns freely, equal in every export."""
+"""Warnings about limits of joints that are equal in every export."""
 
 from __future__ import annotations
 
@@ -10,4 +10,15 @@ def explain_missing_bounds(joint: Joint) -> str:
     return (
         f"joint '{joint.name}' has an effort or velocity limit, but no lower and upper limit: it "
         "is exported as continuous; write the limits, or the type continuous"
+    )
+
+
+def explain_negative_effort(joint: Joint) -> str:
+    """Explain that the effort limit of a joint is negative."""
+    assert joint.limit is not None
+    assert joint.limit.effort is not None
+    effort = joint.limit.effort
+    return (
+        f"effort limit {effort:g} of joint '{joint.name}' is negative: {-effort:g} is written, its "
+        "absolute value, as MuJoCo's importer of URDF takes it"
     )

@@ -11,7 +11,7 @@ from ...diagnostic import Severity
 from ...model.elements import Joint, Limit, Vector
 from ...model.pose import compute_cross, compute_norm
 from ...model.settings import JOINTS_OF_MUJOCO
-from ..common.missing_bounds import explain_missing_bounds
+from ..common.missing_bounds import explain_missing_bounds, explain_negative_effort
 from ..common.numbers import format_numbers_text, number_text
 from ..written import Written
 from .gazebo import get_attributes
@@ -118,6 +118,8 @@ def _limit_losses(joint: Joint) -> Iterator[tuple[str, str, Severity]]:
             "limit is left out",
             Severity.WARNING,
         )
+    elif limit.effort is not None and limit.effort < 0:
+        yield "effort", explain_negative_effort(joint), Severity.WARNING
     if limit.velocity is not None:
         yield (
             "velocity",

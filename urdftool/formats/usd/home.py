@@ -156,5 +156,11 @@ def _make_servo(
         damping = compute_damping(gain, load, timestep)
     assumed[joint.name] = gain
     return JointActuator(
-        None, joint.name, joint.name, drive.kind, gain=gain.value, bias=(0.0, -stiffness, -damping)
+        None,
+        joint.name,
+        joint.name,
+        drive.kind,
+        gain=gain.value,
+        bias=(0.0, -stiffness, -damping),
+        force_range=None if gain.force is None else (-gain.force, gain.force),
     )

@@ -13,6 +13,8 @@ from ...model.elements import Joint
 from ...model.mechanism import JointActuator
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..common.described_gains import list_described_gains
+from ..common.missing_bounds import explain_negative_effort
+from ..common.servo_gains import drop_unlimited
 from ..written import Written
 from .bodies import Bodies
 
@@ -83,8 +85,9 @@ def choose_joint_values(
     joints = list_single_joints(bodies)
     found = {}
     for joint in joints:
-        gains = _compute_gains(servos, joint)
-        found[joint.name] = _choose(joint, gains, settings[joint.name], written)
+        own = [servo for servo in servos if servo.joint == joint.name]
+        values = _choose(joint, _compute_gains(own), settings[joint.name], written)
+        found[joint.name] = _bound(values, own)
     _report_missing_gains(bodies, joints, found, written)
     return found
 
@@ -121,6 +124,9 @@ def _choose(
         chosen.kd or 0.0,
     )
     _report_changes(joint, plain, values, written)
+    if joint.limit is not None and (joint.limit.effort or 0) < 0:
+        text, place = explain_negative_effort(joint), joint.limit.place
+        written.report_loss("effort", text, place, kind="joint", name=joint.name)
     return _drop_zero_effort(joint, values, written)
 
 
@@ -130,8 +136,8 @@ def _drop_zero_effort(joint: Joint, values: JointValues, written: Written) -> Jo
         return values
     written.report_loss(
         "effort",
-        f"effort limit 0 of joint '{joint.name}' is left out: a drive with it applies nothing, and "
-        "Newton rejects the stage",
+        f"effort limit 0 of joint '{joint.name}' is not written: a drive with it applies nothing, "
+        "and Newton rejects the stage",
         joint.limit.place,
         kind="joint",
         name=joint.name,
@@ -139,14 +145,22 @@ def _drop_zero_effort(joint: Joint, values: JointValues, written: Written) -> Jo
     return replace(values, effort=None)
 
 
-def _compute_gains(servos: Sequence[JointActuator], joint: Joint) -> tuple[float, float]:
-    """Return stiffness and damping of the actuators of a joint [per rad or m]."""
+def _bound(values: JointValues, servos: Sequence[JointActuator]) -> JointValues:
+    """Give a drive without an effort limit the force range of the servo of its joint."""
+    if len(servos) != 1 or (force := servos[0].force_range) is None:
+        return values
+    if drop_unlimited(values.effort) is not None:
+        return values
+    return replace(values, effort=abs(servos[0].gear) * max(map(abs, force)))
+
+
+def _compute_gains(servos: Sequence[JointActuator]) -> tuple[float, float]:
+    """Return stiffness and damping of the actuators of one joint [per rad or m]."""
     stiffness = damping = 0.0
     for actuator in servos:
-        if actuator.joint == joint.name:
-            square = actuator.gear * actuator.gear
-            stiffness -= actuator.bias[1] * square
-            damping -= actuator.bias[2] * square
+        square = actuator.gear * actuator.gear
+        stiffness -= actuator.bias[1] * square
+        damping -= actuator.bias[2] * square
     return max(stiffness, 0.0), max(damping, 0.0)
 
 
