@@ -1,6 +1,7 @@
 """A finding names only the effects that hold in its case."""
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -8,6 +9,7 @@ from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
 
+ROBOTS = Path(__file__).parents[2] / "fixtures" / "effects" / "robots"
 INERTIAL = """<inertial><mass value="{mass}"/>
   <inertia ixx="{moment}" ixy="0" ixz="0" iyy="{moment}" iyz="0" izz="{moment}"/></inertial>"""
 HEAVY = INERTIAL.format(mass=1, moment=0.01)
@@ -325,6 +327,7 @@ def test_the_disc_of_a_rotor(tmp_path, blade, count):
 
 @pytest.mark.parametrize(("mesh", "loaded"), [("box.stl", True), ("box.dae", False)])
 def test_overlaps_in_a_robot_that_mujoco_does_not_read(tmp_path, mesh, loaded):
+    (tmp_path / mesh).write_bytes((ROBOTS / mesh).read_bytes())
     other = f'<collision><geometry><mesh filename="{mesh}"/></geometry></collision>'
     arm = COLLISION.replace("<geometry>", '<origin xyz="0.01 0 0"/><geometry>')
     robot = _robot(HEAVY + arm, base=HEAVY + COLLISION + other, mid=HEAVY + SMALL)

@@ -14,6 +14,7 @@ from ..model.mesh_formats import find_rejecting_readers, get_suffix
 from ..rules.gazebo.lumped_model import find_kept_links, is_named_as_link
 from ..rules.inertia.presence import has_bare_moved_body
 from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
+from ..rules.mujoco import find_lost_in_mujoco
 from ..rules.rule import GAZEBO
 
 _THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit", "check_urdf")
@@ -21,6 +22,18 @@ _THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit
 
 _OF_FORMAT = ("unsupported-mesh-format", "dae-as-collision")
 """Rules that report what a format of meshes does."""
+
+_OF_FILES = (
+    "mesh-not-found",
+    "mesh-case-mismatch",
+    "malformed-uri",
+    "package-not-found",
+    "absolute-path",
+    "wrong-package-in-uri",
+    "unsupported-uri-scheme",
+    "mesh-without-filename",
+)
+"""Rules that report files which a reader does not find."""
 
 _IRREGULAR = {"have": "has", "do": "does", "are": "is", "go": "goes"}
 
@@ -66,6 +79,9 @@ class Rejections:
                     formats.add((ending, isinstance(shape, Collision)))
         if ("obj", True) in formats and _has_flat_first_object(robot):
             self._by_reader.setdefault("mujoco", set())
+        source = robot.source
+        if formats and source is not None and find_lost_in_mujoco(robot, source):
+            self._by_reader.setdefault("mujoco", set()).update(_OF_FILES)
         for ending, collides in formats:
             for reader in find_rejecting_readers(ending, collides):
                 self._by_reader.setdefault(reader, set()).update(_OF_FORMAT)

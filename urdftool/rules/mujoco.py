@@ -1,9 +1,17 @@
-"""Read the compiler settings of a robot for MuJoCo."""
+"""Read the compiler settings of a robot for MuJoCo, and find the files that it opens."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
 from ..model.elements import Mesh, Robot
 from ..model.mesh_formats import READ_BY, get_suffix
+from ..source.description import Description
+from ..source.document import Element
+from .mesh.mesh_uses import MeshUse, get_mesh_uses
 
 
 def keeps_visuals(robot: Robot) -> bool:
@@ -11,9 +19,7 @@ def keeps_visuals(robot: Robot) -> bool:
     if robot.xml is None:
         return True
     return any(
-        (compiler.get("discardvisual") or "").strip() == "false"
-        for mujoco in robot.xml.list_children("mujoco")
-        for compiler in mujoco.list_children("compiler")
+        (compiler.get("discardvisual") or "").strip() == "false" for compiler in _compilers(robot)
     )
 
 
@@ -25,3 +31,86 @@ def reads_collisions(robot: Robot) -> bool:
         for shape in link.collisions
         if isinstance(shape.geometry, Mesh)
     )
+
+
+def _compilers(robot: Robot) -> Iterator[Element]:
+    if robot.xml is not None:
+        for mujoco in robot.xml.list_children("mujoco"):
+            yield from mujoco.list_children("compiler")
+
+
+class MeshFolder(NamedTuple):
+    """Where MuJoCo looks for meshes.
+
+    Attributes:
+        meshdir: Folder, relative to the description or absolute; empty for its folder.
+        strippath: Whether it removes the folders from the names of files.
+        element: The ``<compiler>`` that says so; None if none does.
+    """
+
+    meshdir: str
+    strippath: bool
+    element: Element | None
+
+
+def read_mesh_folder(robot: Robot) -> MeshFolder:
+    """Read the folder of the meshes from the ``<compiler>`` elements, of which the last wins.
+
+    Without ``strippath``, MuJoCo since 3.7 keeps the folders; earlier versions remove them.
+    """
+    folder = MeshFolder("", False, None)
+    for compiler in _compilers(robot):
+        meshdir = compiler.get("meshdir") or compiler.get("assetdir")
+        strip = (compiler.get("strippath") or "").strip()
+        if meshdir or strip:
+            folder = MeshFolder(
+                meshdir or folder.meshdir,
+                strip == "true" if strip else folder.strippath,
+                compiler,
+            )
+    return folder
+
+
+def locate_in_mujoco(use: MeshUse, folder: MeshFolder, description: Description) -> Path | None:
+    """Return the file that MuJoCo opens for the URI of a mesh (run with MuJoCo 4.0).
+
+    Args:
+        use: The use of the mesh.
+        folder: Where it looks for meshes.
+        description: The description; a relative path starts in the folder of its file.
+
+    Returns:
+        None for a URI with a scheme, such as ``package://``, which it does not resolve.
+    """
+    name = use.uri
+    if folder.strippath:
+        name = name.replace("\\", "/").rpartition("/")[2]
+    elif "://" in name:
+        return None
+    return Path(os.path.normpath(description.packages.file.parent / folder.meshdir / name))
+
+
+def is_found_by_mujoco(use: MeshUse, folder: MeshFolder, description: Description) -> bool:
+    """Tell whether the file exists that MuJoCo opens for the URI of a mesh."""
+    path = locate_in_mujoco(use, folder, description)
+    return path is not None and use.workspace.is_file(path)
+
+
+def find_lost_in_mujoco(robot: Robot, description: Description) -> list[MeshUse]:
+    """Find the meshes whose file MuJoCo opens and does not find.
+
+    A URI with a scheme counts only if its file is known to be missing: who loads such a robot
+    replaces the scheme by a path first.
+    """
+    folder, keeps = read_mesh_folder(robot), keeps_visuals(robot)
+    return [
+        use
+        for use in get_mesh_uses(robot, description)
+        if (keeps or use.collides)
+        and use.uri.strip()
+        and not use.is_unread
+        and "${" not in use.uri
+        and "$(" not in use.uri
+        and not is_found_by_mujoco(use, folder, description)
+        and ("://" not in use.uri or folder.strippath or (use.path and not use.exists))
+    ]

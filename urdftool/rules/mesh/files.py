@@ -17,7 +17,13 @@ from ...source.description import Description
 from ...source.packages import find_own_package, shorten_path
 from ...workspace import Workspace, memoize_by_workspace
 from ..fix import Change, FixContext, Proposal, safe, substitute
-from ..mujoco import keeps_visuals
+from ..mujoco import (
+    find_lost_in_mujoco,
+    is_found_by_mujoco,
+    keeps_visuals,
+    locate_in_mujoco,
+    read_mesh_folder,
+)
 from ..rule import ERROR, SAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..words import find_nearest
 from .changes import change_uses
@@ -41,6 +47,7 @@ _NOT_OPENED = "urdfdom, gz, gazebo-classic"
         "pybullet, drake (nowhere)": "reject the robot",
         "drake (above)": "rejects the robot",
         "mujoco": "rejects the robot",
+        "mujoco (folder)": "rejects the robot; 3.3 loads it if the file is in the folder",
         "newton": "drops the shape with a warning",
         "urdfdom, gz, gazebo-classic": "load the robot without opening the file (sdformat 12.3)",
     },
@@ -57,12 +64,15 @@ def mesh_not_found(
     A ``file://`` URI with a relative path names no file for RViz, even if the file is next to the
     description, where PyBullet and readers with a path of resources find it. All of them are one
     finding.
+    If ``<mujoco><compiler meshdir="…">`` names a folder, MuJoCo searches the files there. Files
+    that exist and that it does not find are a warning, and so are files that only it finds.
     Files outside of the project are not read; the summary counts them as not checked.
     """
     missing: dict[Path, list[MeshUse]] = {}
     yield from _report_refused(get_mesh_uses(robot, description))
-    keeps = keeps_visuals(robot)
-    yield from _report_relative(get_mesh_uses(robot, description), keeps)
+    lost = find_lost_in_mujoco(robot, description)
+    yield from _report_lost(lost, robot, description)
+    yield from _report_relative(get_mesh_uses(robot, description), lost)
     for use in get_mesh_uses(robot, description):
         if use.path is None or use.exists or use.is_fixed_path or _get_relative_path(use):
             continue
@@ -73,6 +83,7 @@ def mesh_not_found(
         ):
             continue
         missing.setdefault(Path(os.path.normpath(use.path)), []).append(use)
+    yield from _report_in_mesh_folder(missing, robot, description)
     folders: dict[Path, list[Path]] = {}
     for path in missing:
         folders.setdefault(_find_missing_folder(description.workspace, path), []).append(path)
@@ -85,7 +96,7 @@ def mesh_not_found(
                 f"it, first '{first.uri}'",
                 at=first.mesh.locate_attribute("filename"),
                 data={"folder": str(folder), "count": len(paths)},
-                effects=_select_effects(keeps, [use for path in paths for use in missing[path]]),
+                effects=_select_effects(lost, [use for path in paths for use in missing[path]]),
             )
             continue
         for path in paths:
@@ -96,7 +107,7 @@ def mesh_not_found(
                 f"'{shorten_path(path)}'{_suggest_file(description.workspace, path)}",
                 at=first.mesh.locate_attribute("filename"),
                 data={"uri": first.uri, "path": str(path)},
-                effects=_select_effects(keeps, missing[path]),
+                effects=_select_effects(lost, missing[path]),
             )
 
 
@@ -125,7 +136,57 @@ def _get_relative_path(use: MeshUse) -> str:
     return "" if not separator or scheme != "file" or use.is_absolute else rest
 
 
-def _report_relative(uses: list[MeshUse], keeps: bool) -> Iterator[Problem]:
+def _report_lost(lost: list[MeshUse], robot: Robot, description: Description) -> Iterator[Problem]:
+    """Report files that exist, and that MuJoCo searches elsewhere because of its settings."""
+    folder = read_mesh_folder(robot)
+    if folder.element is None:
+        return
+    uses = list({use.uri: use for use in lost if use.exists}.values())
+    paths = [path for use in uses if (path := locate_in_mujoco(use, folder, description))]
+    if not paths:
+        return
+    more = f" (and {len(paths) - 1} more)" if len(paths) > 1 else ""
+    yield Problem(
+        uses[0].link,
+        f"MuJoCo does not find mesh '{uses[0].uri}'{more}: because of its <compiler>, it opens "
+        f"'{shorten_path(paths[0])}'; write URIs relative to meshdir, or correct meshdir and "
+        "strippath",
+        at=folder.element,
+        severity=WARNING,
+        data={"uri": uses[0].uri, "path": str(paths[0]), "count": len(paths)},
+        effects=["mujoco (folder)" if not folder.strippath else "mujoco"],
+    )
+
+
+def _report_in_mesh_folder(
+    missing: dict[Path, list[MeshUse]], robot: Robot, description: Description
+) -> Iterator[Problem]:
+    """Report missing files that MuJoCo finds in its folder, and remove them."""
+    folder = read_mesh_folder(robot)
+    if folder.element is None:
+        return
+    there = [
+        path
+        for path, uses in missing.items()
+        if all(is_found_by_mujoco(use, folder, description) for use in uses)
+    ]
+    if not there:
+        return
+    uses = [use for path in there for use in missing.pop(path)]
+    more = f" (and {len(there) - 1} more)" if len(there) > 1 else ""
+    yield Problem(
+        uses[0].link,
+        f"only MuJoCo finds mesh '{uses[0].uri}'{more}, in its meshdir '{folder.meshdir}'; "
+        "for other readers, and MuJoCo since 3.7, write paths relative to the description, and "
+        "remove meshdir",
+        at=uses[0].mesh.locate_attribute("filename"),
+        severity=WARNING,
+        data={"uri": uses[0].uri, "path": str(there[0]), "count": len(there)},
+        effects=_select_effects([], uses),
+    )
+
+
+def _report_relative(uses: list[MeshUse], lost: list[MeshUse]) -> Iterator[Problem]:
     """Report ``file://`` URIs with a relative path, those next to the description on their own."""
     groups: dict[bool, list[MeshUse]] = {}
     for use in uses:
@@ -145,18 +206,21 @@ def _report_relative(uses: list[MeshUse], keeps: bool) -> Iterator[Problem]:
             "package://PACKAGE/… or a relative path without file://",
             at=use.mesh.locate_attribute("filename"),
             data={"uri": use.uri, "path": path, "count": count},
-            effects=[one for one in _select_effects(keeps, group) if not above or one != "gz"],
+            effects=[one for one in _select_effects(lost, group) if not above or one != "gz"],
         )
 
 
-def _select_effects(keeps: bool, uses: list[MeshUse]) -> list[str]:
+def _select_effects(lost: list[MeshUse], uses: list[MeshUse]) -> list[str]:
     """Select the effects of a missing file.
 
-    MuJoCo opens the file of a visual only if the robot keeps visuals. RViz and gz do not open the
-    file of a shape that urdfdom drops.
+    RViz and gz do not open the file of a shape that urdfdom drops.
+
+    Args:
+        lost: The uses whose file MuJoCo opens and does not find.
+        uses: The uses of the missing file.
     """
     shown = () if all(map(is_dropped, uses)) else ("rviz", "gz")
-    opened = keeps or any(use.collides for use in uses)
+    opened = any(use is other for use in uses for other in lost)
     rejecting = "drake (above)" if all(map(_is_above, uses)) else "pybullet, drake (nowhere)"
     return [*shown, _NOT_OPENED, rejecting, *["mujoco"] * opened]
 
@@ -238,8 +302,8 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
     robots and build servers use. There the file is not found.
     """
     seen: set[str] = set()
-    uses = get_mesh_uses(robot, description)
-    for use in uses:
+    lost = {use.uri for use in find_lost_in_mujoco(robot, description)}
+    for use in get_mesh_uses(robot, description):
         if use.path is None or use.exists or use.uri in seen:
             continue
         actual = find_actual_case(use.workspace, use.path)
@@ -253,7 +317,7 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
                 f"mesh '{use.uri}' is '{shown}' on disk, so Linux does not find it; match the case",
                 at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri, "name": shown},
-                effects=["pybullet, drake", *["mujoco"] * _is_opened_by_mujoco(robot, use, uses)],
+                effects=["pybullet, drake", *["mujoco"] * (use.uri in lost)],
             )
 
 
@@ -309,8 +373,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
     again.
     """
     seen: set[Path] = set()
-    uses = get_mesh_uses(robot, description)
-    for use in uses:
+    for use in get_mesh_uses(robot, description):
         if use.path is None or not use.exists or use.path in seen:
             continue
         seen.add(use.path)
@@ -321,7 +384,7 @@ def corrupt_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
                 f"mesh '{use.uri}' {wrong}",
                 at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri},
-                effects=_select_readers(robot, use, uses, _name_format(use)),
+                effects=_select_readers(robot, description, use, _name_format(use)),
             )
 
 
@@ -345,8 +408,7 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
     fetches all files, so all pointers of a repository are one finding.
     """
     reported: set[Path] = set()
-    uses = get_mesh_uses(robot, description)
-    for use in uses:
+    for use in get_mesh_uses(robot, description):
         if use.path is None or not use.exists or use.path in reported:
             continue
         reported.add(use.path)
@@ -356,7 +418,7 @@ def git_lfs_pointer(robot: Robot, description: Description) -> Iterator[Problem]
                 f"mesh '{use.uri}' {_LFS}",
                 at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri},
-                effects=_select_readers(robot, use, uses),
+                effects=_select_readers(robot, description, use),
                 group="{count} mesh files are git-lfs pointers instead of meshes, in the links "
                 "{names}; run 'git lfs pull'",
             )
@@ -367,29 +429,28 @@ def _name_format(use: MeshUse) -> str:
     return " (OBJ)" if get_suffix(use.uri) == "obj" else " (not OBJ)"
 
 
-def _select_readers(robot: Robot, use: MeshUse, uses: list[MeshUse], case: str = "") -> list[str]:
+def _select_readers(
+    robot: Robot, description: Description, use: MeshUse, case: str = ""
+) -> list[str]:
     """Select the readers that open a file: for a visual, not those that ignore visuals.
 
     PyBullet draws a visual without the shape; MuJoCo discards visuals unless the robot keeps them.
 
     Args:
         robot: The robot.
+        description: Its description.
         use: The use of the file.
-        uses: All uses of meshes.
         case: Case of the effect on MuJoCo, in parentheses; empty without cases.
     """
-    collides = any(other.collides for other in uses if other.path == use.path)
+    same = [one for one in get_mesh_uses(robot, description) if one.path == use.path]
+    here = Path(os.path.normpath(use.path or ""))
+    folder, keeps = read_mesh_folder(robot), keeps_visuals(robot)
+    opened = [locate_in_mujoco(one, folder, description) for one in same if keeps or one.collides]
     return [
         *("rviz", "pinocchio"),
-        *[f"mujoco{case}"] * _is_opened_by_mujoco(robot, use, uses),
-        *["pybullet", "drake"] * collides,
+        *[f"mujoco{case}"] * any(path is None or path == here for path in opened),
+        *["pybullet", "drake"] * any(one.collides for one in same),
     ]
-
-
-def _is_opened_by_mujoco(robot: Robot, use: MeshUse, uses: list[MeshUse]) -> bool:
-    """Tell whether MuJoCo opens a file: for a visual only if the robot keeps visuals."""
-    collides = any(other.collides for other in uses if other.path == use.path)
-    return collides or keeps_visuals(robot)
 
 
 def describe_defect(use: MeshUse) -> str:

@@ -12,7 +12,7 @@ from ...model.elements import Collision, Mesh, Robot
 from ...source.description import Description
 from ...source.document import Element
 from ..fix import Change, FixContext, Proposal, safe, set_attribute, substitute, unsafe
-from ..mujoco import keeps_visuals
+from ..mujoco import is_found_by_mujoco, keeps_visuals, read_mesh_folder
 from ..rule import ERROR, INFO, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..xml.vocabulary_table import find_misspelled_attributes
 from .changes import change_uses
@@ -183,7 +183,7 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
     ``mesh-not-found`` reports it instead.
     """
     seen: set[str] = set()
-    keeps = keeps_visuals(robot)
+    keeps, meshes = keeps_visuals(robot), read_mesh_folder(robot)
     for use in get_mesh_uses(robot, description):
         if use.uri in seen:
             continue
@@ -196,6 +196,7 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
             passes = passes or (wrong.defect == "blank" and use.path is None)
             slashes, named = wrong.defect == "double slash", wrong.defect != "no file"
             opened = keeps or use.collides
+            lost = opened and not is_found_by_mujoco(use, meshes, description)
             path = use.uri.partition("://")[2].strip("/")
             right = f"mesh '{use.uri}' names no file of a package; write '{path}'"
             yield Problem(
@@ -205,7 +206,7 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
                 severity=INFO if slashes else WARNING if passes and named else ERROR,
                 data={"uri": use.uri, "defect": wrong.defect},
                 alike=wrong.defect,
-                effects=[] if passes else ["pybullet, drake", *["mujoco"] * opened],
+                effects=[] if passes else ["pybullet, drake", *["mujoco"] * lost],
             )
 
 
@@ -305,7 +306,7 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
     any time and requires a network. A scheme that no reader supports is an error. One finding
     names all files of a server.
     """
-    keeps = keeps_visuals(robot)
+    keeps, meshes = keeps_visuals(robot), read_mesh_folder(robot)
     found: dict[str, list[MeshUse]] = {}
     for use in get_mesh_uses(robot, description):
         scheme, separator, rest = use.uri.partition("://")
@@ -315,6 +316,7 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
         first = uses[0]
         count = len({use.uri for use in uses})
         more = f" and {count - 1} more of this server" if count > 1 else ""
+        lost = [use for use in uses if not is_found_by_mujoco(use, meshes, description)]
         scheme = server.partition("://")[0]
         known = scheme.lower() in ("http", "https")
         if known:
@@ -330,7 +332,7 @@ def unsupported_uri_scheme(robot: Robot, description: Description) -> Iterator[P
             effects=[
                 *(["rviz", "gz"] if known else []),
                 *("pybullet, drake", "pinocchio"),
-                *["mujoco"] * (keeps or any(use.collides for use in uses)),
+                *["mujoco"] * any(keeps or use.collides for use in lost),
             ],
         )
 
