@@ -101,6 +101,7 @@ def test_a_format_of_meshes_rejects_whatever_rules_run(write, shape, mesh, rejec
     links = LINK.format("a", 0.01), LINK.format("b", 1), BOX.format(shape, mesh)
     fixed = JOINT.format("k", "a", "c", "").replace("revolute", "fixed")
     path = write("r.urdf", robot(*links, JOINT.format("j", "a", "b", LIMIT), fixed))
+    write(mesh, "there")
     found = effects(path, "placeholder-inertia")
     assert {"mujoco", "drake", "pinocchio"} - found == rejecting - {"pybullet"}
 

@@ -19,7 +19,8 @@ def keeps_visuals(robot: Robot) -> bool:
     if robot.xml is None:
         return True
     return any(
-        (compiler.get("discardvisual") or "").strip() == "false" for compiler in _compilers(robot)
+        (compiler.get("discardvisual") or "").strip() == "false"
+        for compiler in _list_compilers(robot)
     )
 
 
@@ -33,7 +34,7 @@ def reads_collisions(robot: Robot) -> bool:
     )
 
 
-def _compilers(robot: Robot) -> Iterator[Element]:
+def _list_compilers(robot: Robot) -> Iterator[Element]:
     if robot.xml is not None:
         for mujoco in robot.xml.list_children("mujoco"):
             yield from mujoco.list_children("compiler")
@@ -45,7 +46,7 @@ class MeshFolder(NamedTuple):
     Attributes:
         meshdir: Folder, relative to the description or absolute; empty for its folder.
         strippath: Whether it removes the folders from the names of files.
-        element: The ``<compiler>`` that says so; None if none does.
+        element: The last ``<compiler>`` with one of them; None without.
     """
 
     meshdir: str
@@ -59,7 +60,7 @@ def read_mesh_folder(robot: Robot) -> MeshFolder:
     Without ``strippath``, MuJoCo since 3.7 keeps the folders; earlier versions remove them.
     """
     folder = MeshFolder("", False, None)
-    for compiler in _compilers(robot):
+    for compiler in _list_compilers(robot):
         meshdir = compiler.get("meshdir") or compiler.get("assetdir")
         strip = (compiler.get("strippath") or "").strip()
         if meshdir or strip:

@@ -17,17 +17,12 @@ from ...source.description import Description
 from ...source.packages import find_own_package, shorten_path
 from ...workspace import Workspace, memoize_by_workspace
 from ..fix import Change, FixContext, Proposal, safe, substitute
-from ..mujoco import (
-    find_lost_in_mujoco,
-    is_found_by_mujoco,
-    keeps_visuals,
-    locate_in_mujoco,
-    read_mesh_folder,
-)
+from ..mujoco import find_lost_in_mujoco, keeps_visuals, locate_in_mujoco, read_mesh_folder
 from ..rule import ERROR, SAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..words import find_nearest
 from .changes import change_uses
 from .dropped import is_dropped
+from .found_by_mujoco import pop_found_by_mujoco, report_found_by_mujoco, report_lost
 from .mesh_uses import MeshUse, find_actual_case, get_mesh_uses
 from .uris import find_malformation
 
@@ -71,7 +66,7 @@ def mesh_not_found(
     missing: dict[Path, list[MeshUse]] = {}
     yield from _report_refused(get_mesh_uses(robot, description))
     lost = find_lost_in_mujoco(robot, description)
-    yield from _report_lost(lost, robot, description)
+    yield from report_lost(lost, robot, description)
     yield from _report_relative(get_mesh_uses(robot, description), lost)
     for use in get_mesh_uses(robot, description):
         if use.path is None or use.exists or use.is_fixed_path or _get_relative_path(use):
@@ -83,7 +78,9 @@ def mesh_not_found(
         ):
             continue
         missing.setdefault(Path(os.path.normpath(use.path)), []).append(use)
-    yield from _report_in_mesh_folder(missing, robot, description)
+    found = pop_found_by_mujoco(missing, robot, description)
+    if found:
+        yield report_found_by_mujoco(robot, found, _select_effects([], found))
     folders: dict[Path, list[Path]] = {}
     for path in missing:
         folders.setdefault(_find_missing_folder(description.workspace, path), []).append(path)
@@ -134,56 +131,6 @@ def _get_relative_path(use: MeshUse) -> str:
     """Get the path of a ``file://`` URI that is relative; empty for other URIs."""
     scheme, separator, rest = use.uri.partition("://")
     return "" if not separator or scheme != "file" or use.is_absolute else rest
-
-
-def _report_lost(lost: list[MeshUse], robot: Robot, description: Description) -> Iterator[Problem]:
-    """Report files that exist, and that MuJoCo searches elsewhere because of its settings."""
-    folder = read_mesh_folder(robot)
-    if folder.element is None:
-        return
-    uses = list({use.uri: use for use in lost if use.exists}.values())
-    paths = [path for use in uses if (path := locate_in_mujoco(use, folder, description))]
-    if not paths:
-        return
-    more = f" (and {len(paths) - 1} more)" if len(paths) > 1 else ""
-    yield Problem(
-        uses[0].link,
-        f"MuJoCo does not find mesh '{uses[0].uri}'{more}: because of its <compiler>, it opens "
-        f"'{shorten_path(paths[0])}'; write URIs relative to meshdir, or correct meshdir and "
-        "strippath",
-        at=folder.element,
-        severity=WARNING,
-        data={"uri": uses[0].uri, "path": str(paths[0]), "count": len(paths)},
-        effects=["mujoco (folder)" if not folder.strippath else "mujoco"],
-    )
-
-
-def _report_in_mesh_folder(
-    missing: dict[Path, list[MeshUse]], robot: Robot, description: Description
-) -> Iterator[Problem]:
-    """Report missing files that MuJoCo finds in its folder, and remove them."""
-    folder = read_mesh_folder(robot)
-    if folder.element is None:
-        return
-    there = [
-        path
-        for path, uses in missing.items()
-        if all(is_found_by_mujoco(use, folder, description) for use in uses)
-    ]
-    if not there:
-        return
-    uses = [use for path in there for use in missing.pop(path)]
-    more = f" (and {len(there) - 1} more)" if len(there) > 1 else ""
-    yield Problem(
-        uses[0].link,
-        f"only MuJoCo finds mesh '{uses[0].uri}'{more}, in its meshdir '{folder.meshdir}'; "
-        "for other readers, and MuJoCo since 3.7, write paths relative to the description, and "
-        "remove meshdir",
-        at=uses[0].mesh.locate_attribute("filename"),
-        severity=WARNING,
-        data={"uri": uses[0].uri, "path": str(there[0]), "count": len(there)},
-        effects=_select_effects([], uses),
-    )
 
 
 def _report_relative(uses: list[MeshUse], lost: list[MeshUse]) -> Iterator[Problem]:
