@@ -248,3 +248,44 @@ def test_damaged_real_meshes(name, kind):
     assert is_consistent(got.properties)
     if got.reliable:
         assert differences(got.properties, wanted.properties).max() < 0.03
+
+
+def make_two_boxes(*sizes):
+    """Boxes with a common corner at the origin, as one mesh with shared points."""
+    meshes = []
+    for size in sizes:
+        mesh = trimesh.creation.box(size)
+        mesh.apply_translation(np.array(size) / 2)
+        meshes.append(mesh)
+    return trimesh.util.concatenate(meshes)
+
+
+def test_a_doubled_shell_counts_once():
+    twice = make_two_boxes((1, 1, 1), (1, 1, 1))
+    estimate = estimate_mass_properties(twice.vertices, twice.faces, density=1.0)
+    assert (estimate.method, estimate.volume) == ("exact", pytest.approx(1.0))
+    assert [note.code for note in estimate.notes] == ["duplicate-faces"]
+
+
+def test_a_body_that_shares_a_face_with_the_one_around_it_counts_once():
+    nested = make_two_boxes((1, 1, 1), (1, 1, 0.5))
+    estimate = estimate_mass_properties(nested.vertices, nested.faces, density=1.0)
+    assert estimate.volume == pytest.approx(1.0, rel=0.01)
+    assert estimate.method == "winding-number"
+    assert estimate.error > 0
+
+
+def test_two_boxes_that_share_an_edge_alone_are_exact():
+    first = trimesh.creation.box((1, 1, 1))
+    second = first.copy()
+    second.apply_translation((1, 1, 0))
+    both = trimesh.util.concatenate([first, second])
+    estimate = estimate_mass_properties(both.vertices, both.faces, density=1.0)
+    assert (estimate.method, estimate.volume) == ("exact", pytest.approx(2.0))
+
+
+def test_the_error_of_samples_covers_products_of_inertia():
+    box = trimesh.creation.box((1, 1, 1))
+    estimate = estimate_mass_properties(box.vertices, box.faces[:-1], mass=1.0)
+    off = np.abs(estimate.properties.inertia - np.eye(3) / 6).max() * 6
+    assert 0 < off <= estimate.error

@@ -10,8 +10,10 @@ The first applicable method is used, from best to worst:
   are too large or bodies overlap considerably.
 - ``convex-hull``: the hull of the points, if no point is inside. An upper bound, never reliable.
 
-A surface that intersects itself within one body is integrated as it is wound, so doubly enclosed
-space counts twice. Detecting that would cost more than everything else here.
+Bodies that share edges are one surface: where it winds around a part of space twice, its duplicate
+faces are dropped, or the union is sampled. A surface that intersects itself without edges there is
+integrated as it is wound, so doubly enclosed space counts twice. Detecting that would cost more
+than everything else here.
 """
 
 from __future__ import annotations
@@ -27,13 +29,14 @@ from ..errors import MeshError
 from ..geometry.mesh import Array, Faces, Points
 from ..geometry.topology import Edges, find_collapsed, find_edges, label_bodies, weld
 from ..mechanics.spatial_inertia import SpatialInertia
+from .crossings import compute_crossing_numbers
 from .hull import compute_hull_moments
 from .inertia_error import InertiaError
 from .nesting import Nesting, nest
 from .polyhedron import Moments, compute_solid_moments
 from .repair import Filling, drop_duplicates, fill_holes, orient
 from .requirements import require_consistent
-from .sampling import compute_sampled_moments
+from .sampling import compute_sampled_moments, spread_points
 
 ACCEPTED_ERROR = 0.02
 """Relative error of the volume up to which a result is reliable."""
@@ -48,6 +51,9 @@ AGREEMENT = 0.03
 
 LARGE_OPENING = 0.1
 """Part of the surface above which closing holes is a guess about the shape. Chosen, no source."""
+
+_PROBED_POINTS = 4096
+"""Points in the bounding box that show whether space is enclosed twice. Chosen, no source."""
 
 _SHEET = 1e-6
 """Volume of a body, relative to its area to the power of 3/2, below which it is a sheet. Chosen, no
@@ -68,7 +74,7 @@ class Estimate:
     reliable: bool
     """Whether the properties are within about 3 % of those of the intended solid."""
     error: float
-    """Estimated relative error of the volume; 0 for an exact result."""
+    """Estimated relative error of volume, moments and products; 0 for an exact result."""
     hull_volume: float | None
     """Volume [m³] of the convex hull, for comparison; None for an exact result."""
     bodies: int
@@ -186,7 +192,7 @@ def _integrate_exact(
             message = "The mesh is inside out; its faces were reversed."
             notes.append(make_remark("inside-out", message))
             moments = replace(moments, measure=-moments.measure, second=-moments.second)
-        return _Solid(moments, "exact", 0.0, True, tuple(notes))
+        return _finish(points, faces[labels == solid[0]], edges, moments, notes)
     order = np.argsort(labels, kind="stable")
     runs = np.split(order, np.cumsum(np.bincount(labels))[:-1])
     corners = [points[faces[runs[body]]] for body in solid]
@@ -199,10 +205,38 @@ def _integrate_exact(
         for body, sign in zip(solid, turn, strict=True)
         if sign
     ]
-    moments = compute_solid_moments(points, np.concatenate(chosen))
+    kept = np.concatenate(chosen)
+    moments = compute_solid_moments(points, kept)
     if not nesting.overlaps:
-        return _Solid(moments, "exact", 0.0, True, tuple(notes))
+        return _finish(points, kept, edges, moments, notes)
     return _remove_overlap(points[faces], moments, notes)
+
+
+def _finish(
+    points: Points, faces: Faces, edges: Edges, moments: Moments, notes: list[Diagnostic]
+) -> _Solid:
+    """Return exact moments, unless faces that share edges wind around some space twice."""
+    shared = bool((edges.forward > 1).any())
+    if not shared or not _is_covered_twice(points[faces]):
+        return _Solid(moments, "exact", 0.0, True, tuple(notes))
+    unique = drop_duplicates(faces)
+    again = find_edges(unique) if len(unique) < len(faces) else None
+    if again is None or not again.cycle:
+        return _remove_overlap(points[faces], moments, notes)
+    notes = [*notes, _remark_duplicates(len(faces) - len(unique))]
+    return _finish(points, unique, again, compute_solid_moments(points, unique), notes)
+
+
+def _is_covered_twice(corners: Array) -> bool:
+    """Tell whether a closed surface winds around one of some points more than once."""
+    ends = corners.reshape(-1, 3)
+    points = spread_points(_PROBED_POINTS, ends.min(axis=0), ends.max(axis=0))
+    return bool((np.abs(compute_crossing_numbers(points, corners)) > 1.5).any())
+
+
+def _remark_duplicates(count: int) -> Diagnostic:
+    message = f"Duplicate faces, ignored: {count}."
+    return make_remark("duplicate-faces", message, count=count)
 
 
 def _compute_measures(
@@ -257,15 +291,15 @@ def _remove_overlap(corners: Array, summed: Moments, notes: list[Diagnostic]) ->
 def _average(first: Moments, second: Moments) -> tuple[Moments, float]:
     """Average two independent results, and return their relative difference.
 
-    The difference is the largest of those of the volume, of the second moments along x, y and z,
-    and of the centroid relative to the radius of gyration.
+    The difference is the largest of those of the volume, of the second moments and products, and
+    of the centroid relative to the radius of gyration.
     """
     volume = 0.5 * (first.measure + second.measure)
     moment = 0.5 * (first.second + second.second)
     radius = math.sqrt(max(float(np.trace(moment)) / volume, 1e-300))
     differences = [
         abs(first.measure - second.measure) / volume,
-        float(np.abs(np.diag(first.second - second.second)).max() / np.diag(moment).max()),
+        float(np.abs(first.second - second.second).max() / np.diag(moment).max()),
         float(np.linalg.norm(first.centroid - second.centroid)) / radius,
     ]
     mean = Moments(volume, 0.5 * (first.centroid + second.centroid), moment)
@@ -277,9 +311,7 @@ def _estimate_open(points: Points, faces: Faces) -> _Solid:
     notes: list[Diagnostic] = []
     unique = drop_duplicates(faces)
     if len(unique) < len(faces):
-        count = len(faces) - len(unique)
-        message = f"Duplicate faces, ignored: {count}."
-        notes.append(make_remark("duplicate-faces", message, count=count))
+        notes.append(_remark_duplicates(len(faces) - len(unique)))
     wound, turned = orient(points, unique)
     if turned:
         message = f"Faces reversed to agree with their neighbors: {turned}."
