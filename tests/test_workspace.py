@@ -49,6 +49,8 @@ def folder(write):
         (lambda w: list(w.walk("d")), ("list", "d"), [("d", [], ["b"])]),
         (lambda w: w.list_matches("d", "*"), ("list", "d"), [Path("d/b")]),
         (lambda w: w.match("./?/b"), ("list", "."), ["./d/b"]),
+        (lambda w: w.match("?/b"), ("list", "."), ["d/b"]),
+        (lambda w: w.match("[a]"), ("list", "."), ["a"]),
         (lambda w: w.read_variable("NONE_SUCH"), ("env", "NONE_SUCH"), None),
     ],
 )

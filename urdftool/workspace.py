@@ -380,9 +380,8 @@ class Workspace:
         Raises:
             OSError: A part of it matches more than ``MAX_MATCHES`` paths.
         """
-        start, *names = pattern.split("/")
-        found = [start or "/"]
-        for name in names:
+        found = ["/" if pattern.startswith("/") else ""]
+        for name in pattern.split("/"):
             if any(sign in name for sign in "*?["):
                 matches = (path for above in found for path in self._match_entries(above, name))
                 found = list(islice(matches, MAX_MATCHES + 1))
@@ -395,7 +394,7 @@ class Workspace:
     def _match_entries(self, folder: str, name: str) -> list[str]:
         """Return the entries of a folder that match; hidden ones only if the pattern is hidden."""
         try:
-            names = [entry.name for entry in self.list_folder(folder)]
+            names = [entry.name for entry in self.list_folder(folder or ".")]
         except OSError:
             return []
         return [

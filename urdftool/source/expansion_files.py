@@ -139,7 +139,7 @@ class ExpansionFiles:
                 f"the folders after a wildcard cannot be '..' or more than {_MAX_FOLDERS}",
                 rule="include-not-found",
             )
-        self._sandbox.check_file(os.path.dirname(fixed))
+        self._sandbox.check_file(os.path.dirname(fixed) or ".")
         paths = self._packages.workspace.match(pattern)
         # a link that matches may lead to the folders of others
         return [path for path in paths if not self._packages.access.explain_refusal(path)]
