@@ -686,3 +686,28 @@ def test_blocks_are_opened_by_the_model_and_its_rules():
     allowed = {name for name in found if name.startswith(("model/", "rules/gazebo/"))}
     assert found - allowed == OPEN_BLOCKS
     assert len(allowed) <= MOST_THAT_OPEN_BLOCKS, sorted(allowed)
+
+
+def elements_used(path):
+    """Yield the rules for several formats that use ``element``, also in functions they call."""
+    functions = {f.name: f for f in TREES[path].body if isinstance(f, ast.FunctionDef)}
+    for name, function in functions.items():
+        if not any("formats=" in ast.unparse(mark) for mark in function.decorator_list):
+            continue
+        reached, following = set(), [name]
+        while following:
+            reached.add(one := following.pop())
+            inside = list(ast.walk(functions[one]))
+            if any(isinstance(node, ast.Attribute) and node.attr == "element" for node in inside):
+                yield name
+            called = {node.id for node in inside if isinstance(node, ast.Name)}
+            following += (called & functions.keys()) - reached
+
+
+ELEMENT_OF_URDF = {"incomplete_inertial": "its other branch is that of SDF"}
+"""Rules for several formats that use ``element``, with the reason."""
+
+
+def test_rules_for_several_formats_use_no_element_of_urdf():
+    using = {rule for path in MODULES for rule in elements_used(path)}
+    assert using == set(ELEMENT_OF_URDF)

@@ -83,6 +83,17 @@ def test_a_file_of_macros_is_skipped(xacro_file, urdftool):
     assert "skipped, only macros" in result.err
 
 
+def test_rules_run_on_a_robot_without_elements_of_urdf(write, urdftool):
+    write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    meshes = '<mesh name="a" file="m.obj"/><mesh name="b" file="m.obj" scale="1 1 .0001"/>'
+    geoms = '<geom type="mesh" mesh="a"/><geom type="mesh" mesh="b"/>'
+    assets = f"<asset>{meshes}</asset><worldbody><body>{geoms}</body></worldbody>"
+    for name, text in {"a": assets, "b": ""}.items():
+        result = urdftool("lint", write(f"{name}.xml", f'<mujoco model="">{text}</mujoco>'))
+        assert "failed" not in result.err
+        assert result.code < 2
+
+
 def test_a_rule_that_breaks_is_our_bug_and_the_others_run(write, urdftool, monkeypatch):
     def broken(robot):
         raise KeyError("oh")
@@ -92,6 +103,7 @@ def test_a_rule_that_breaks_is_our_bug_and_the_others_run(write, urdftool, monke
     result = urdftool("lint", path)
     assert result.code == 3
     assert "rule zero-axis failed because of a bug" in result.err
+    assert ", 1 rule failed: zero-axis (targets" in result.err
     assert "[missing-name]" in result.out
     for style in ("json", "sarif", "github", "junit", "html"):
         again = urdftool("lint", path, "--format", style)

@@ -43,6 +43,10 @@ class Part:
         """Return the URDF element from which the part was read; None for another source."""
         return self.provenance if isinstance(self.provenance, Element) else None
 
+    def has_attribute(self, name: str) -> bool:
+        """Tell whether the URDF element has an attribute; False without an element."""
+        return self.xml is not None and name in self.xml.attributes
+
     @property
     def tag(self) -> str:
         """Return the tag of the URDF element; the name of the class in lower case without one."""

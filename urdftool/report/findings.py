@@ -224,4 +224,7 @@ def summarize(outcome: Outcome) -> str:
     written = sum(report.unexpanded for report in outcome.reports)
     if written:
         unchecked += f", {format_count(written, 'xacro file')} not expanded and so not checked"
+    failed = {rule for report in outcome.reports for rule in report.failed_rules}
+    if failed:
+        unchecked += f", {format_count(len(failed), 'rule')} failed: {', '.join(sorted(failed))}"
     return f"{what}{hidden}{known}{where}{unchecked}" + (f" (targets: {names})" if files else "")

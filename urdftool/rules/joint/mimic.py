@@ -54,7 +54,7 @@ def mimic_unknown_joint(robot: Robot) -> Iterator[Problem]:
         if name in robot.joint or is_unexpanded(name):
             continue
         if not name.strip():
-            if "joint" in mimic.element.attributes or not _is_misspelt(mimic.element):
+            if mimic.has_attribute("joint") or not _is_misspelt(mimic.xml):
                 yield _report_missing_leader(joint, mimic)
         elif name.strip() not in stripped:
             yield _report_unknown_leader(robot, joint, mimic)
@@ -73,7 +73,7 @@ def report_unknown_leaders(robot: Robot) -> Iterator[Problem]:
 
 
 def _report_missing_leader(joint: Joint, mimic: Mimic) -> Problem:
-    written = "joint" in mimic.element.attributes
+    written = mimic.has_attribute("joint")
     effects = select_holding(mimic_unknown_joint.effects, "no name" if not written else "a name")
     return Problem(
         joint, _describe_missing_leader(joint), at=mimic, alike="no name", effects=effects
@@ -96,8 +96,10 @@ def _report_unknown_leader(robot: Robot, joint: Joint, mimic: Mimic) -> Problem:
     )
 
 
-def _is_misspelt(element: Element) -> bool:
+def _is_misspelt(element: Element | None) -> bool:
     """Tell whether the attribute has a different name, which another rule reports."""
+    if element is None:
+        return False
     return "name" in element.attributes or "joint" in find_misspelled_attributes(element).values()
 
 

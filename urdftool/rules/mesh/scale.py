@@ -189,7 +189,7 @@ def mesh_scaled_twice(
         length = _compute_largest(use, whole=True)
         if length is not None and 0 < length < smallest:
             seen.add(use.uri)
-            scale = use.mesh.element.get("scale") or ""
+            scale = (use.mesh.xml and use.mesh.xml.get("scale")) or ""
             right = "; remove the scale" if scale else ""
             yield Problem(
                 use.link,
@@ -269,7 +269,7 @@ def write_mirrored_mesh(problem: Problem, context: FixContext) -> Proposal | Non
     effects={
         "urdfdom, gz, gazebo-classic, pybullet": "take each scale as written",
     },
-    formats=ANY_FORMAT,
+    formats=URDF_AND_SDF,
 )
 def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Problem]:
     """A mesh file is used with two different scales.
@@ -297,8 +297,8 @@ def mesh_scale_differs(robot: Robot, description: Description) -> Iterator[Probl
                 f"mesh '{uri}' of link '{use.link.name}' has scale {_format_scale(scale)}, but "
                 f"{_format_scale(usual)} in other places; use one scale",
                 at=use.mesh.locate_attribute("scale")
-                if "scale" in use.mesh.element.attributes
-                else use.mesh.element,
+                if use.mesh.has_attribute("scale")
+                else use.mesh,
             )
 
 
@@ -356,7 +356,7 @@ def mesh_scale_outlier(
         power = math.log10(factor) if factor > 0 else 0.5
         if abs(abs(power) - 3) < 0.01:
             continue
-        if abs(power - round(power)) < 0.01 and "scale" in use.mesh.element.attributes:
+        if abs(power - round(power)) < 0.01 and use.mesh.has_attribute("scale"):
             yield Problem(
                 use.link,
                 f"mesh '{use.uri}' of link '{use.link.name}' is scaled {factor:g} times as much as "

@@ -43,7 +43,10 @@ def no_links(robot: Robot, description: Description) -> Iterator[Problem]:
     urdfdom, and with it ROS and Gazebo, rejects a robot without links. A ``<robot>`` with a comment
     and neither name nor elements is ignored, as a placeholder that another file includes.
     """
-    if not (robot.name.strip() or robot.element.children) and description.document.comments:
+    if (
+        not (robot.name.strip() or (robot.xml and robot.xml.children))
+        and description.document.comments
+    ):
         return
     if not robot.links and "link" not in find_misspelled_children(robot.xml).values():
         yield _report_no_link(robot)
@@ -101,7 +104,7 @@ def _report_every_second(
 
 def _report_second(part: Link | Joint, first: Link | Joint) -> Problem:
     kind = "link" if isinstance(part, Link) else "joint"
-    named = "name" in part.element.attributes
+    named = part.has_attribute("name")
     return Problem(
         part,
         f"{kind} name '{part.name}' is used twice (first in line {first.place.line}); rename one",
