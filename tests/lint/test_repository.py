@@ -183,6 +183,28 @@ def test_changed_files_concern_the_robots_that_include_them(committed, urdftool,
     assert [line.partition("  ")[0] for line in lines if "no robot" not in line] == expected
 
 
+def test_a_moved_manifest_concerns_all_robots_and_a_configuration_those_below(tmp_path, urdftool):
+    def select(root, change):
+        root.mkdir()
+        for name in ("a/r.urdf", "b/r.urdf"):
+            (root / name).parent.mkdir()
+            (root / name).write_text('<robot name="r"><link name="a"/></robot>')
+        (root / "p").mkdir()
+        (root / "p/package.xml").write_text("<package><name>p</name></package>")
+        git = ["git", "-c", "user.name=a", "-c", "user.email=a@b.c"]
+        for words in (["init", "-q"], ["add", "."], ["commit", "-qm", "all"]):
+            subprocess.run([*git, *words], cwd=root, check=True)
+        change(root)
+        lines = urdftool("lint", root, "--list", "--changed-since", "HEAD").out.splitlines()
+        return {line.partition("r.urdf")[0][-2] for line in lines if "no robot" not in line}
+
+    assert select(tmp_path / "1", lambda root: (root / "p").rename(root / "q")) == {"a", "b"}
+    assert select(tmp_path / "2", lambda root: (root / "p/x").write_text("")) == set()
+    for number, name in enumerate(("urdftool.toml", ".urdftool.toml", "pyproject.toml"), 3):
+        write = lambda root, name=name: (root / "a" / name).write_text("")  # noqa: E731
+        assert select(tmp_path / str(number), write) == {"a"}
+
+
 def test_changed_since_needs_a_revision(committed, urdftool):
     for words, said in ((["v9"], "git knows no revision 'v9'"), (["--output=x"], "not a revision")):
         result = urdftool("lint", ".", f"--changed-since={words[0]}")

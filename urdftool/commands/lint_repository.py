@@ -68,7 +68,7 @@ def select_changed(
     from ..lint.changes import list_changed_files, select_concerned
 
     changed = {path for folder in folders for path in list_changed_files(folder, revision)}
-    kept = select_concerned(files, found, changed, workspace)
+    kept = select_concerned(files, found, changed, workspace, console.config)
     console.print_note(
         f"{format_count(len(changed), 'file')} changed since {revision}: "
         f"{len(kept)} of {format_count(len(files), 'robot')} concerned"

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence, Set
 from pathlib import Path
 
+from ..configuration import NAMES
 from ..errors import SourceError, UrdftoolError
 from ..git_command import run_git
 from ..source.document import read_file
@@ -14,10 +15,11 @@ from ..workspace import Workspace
 from .repository import Repository
 
 _DESCRIPTIONS = (".urdf", ".xacro")
+_FINDING = ("package.xml", "model.config")  # make a folder a package, which any robot may use
 
 
 def list_changed_files(folder: str, revision: str) -> set[str]:
-    """Return the resolved paths of files that differ from a revision, and of new files.
+    """Return the resolved paths of files that differ from a revision, new and removed ones, too.
 
     Args:
         folder: A folder of the repository.
@@ -39,7 +41,9 @@ def list_changed_files(folder: str, revision: str) -> set[str]:
         if known.returncode:
             raise SourceError(f"git knows no revision '{revision}'", path=root)
         commit = os.fsdecode(known.stdout.strip())
-        changed = run_git(root, "diff", "--name-only", "-z", "--no-ext-diff", commit, "--")
+        changed = run_git(
+            root, "diff", "--name-only", "--no-renames", "-z", "--no-ext-diff", commit, "--"
+        )
         added = run_git(root, "ls-files", "--others", "--exclude-standard", "-z")
     except OSError:
         raise SourceError("git is not installed, which --changed-since requires") from None
@@ -48,19 +52,34 @@ def list_changed_files(folder: str, revision: str) -> set[str]:
 
 
 def select_concerned(
-    files: Sequence[str], found: Repository, changed: Collection[str], workspace: Workspace
+    files: Sequence[str],
+    found: Repository,
+    changed: Set[str],
+    workspace: Workspace,
+    config: str | None = None,
 ) -> list[str]:
     """Return the robots that changed files concern.
 
-    A description concerns the robots that include it; another file, such as a mesh or a manifest,
-    those of its package and those whose files contain its name.
+    A description concerns the robots that include it; a configuration those below its folder; a
+    ``package.xml`` all, because any may find the package; another file, such as a mesh, those of
+    its package, those whose files contain its name, and those to which it passes arguments.
 
     Args:
         files: Robots.
         found: Who includes whom.
         changed: Resolved paths of the changed files.
         workspace: Access to files.
+        config: Configuration file named by the user.
     """
+    if any(os.path.basename(path) in _FINDING for path in changed):
+        return list(files)
+    if config is not None and os.path.realpath(config) in changed:
+        return list(files)
+    configured = tuple(
+        os.path.join(os.path.dirname(path), "")
+        for path in changed
+        if os.path.basename(path) in NAMES
+    )
     others = [path for path in changed if not path.endswith(_DESCRIPTIONS)]
     packages = {find_own_package(Path(path)) for path in others} - {None}
     names = [os.fsencode(os.path.basename(path)) for path in others]
@@ -72,11 +91,20 @@ def select_concerned(
         if (
             real in including
             or not parts.isdisjoint(changed)
+            or real.startswith(configured)
             or find_own_package(Path(real)) in packages
+            or not changed.isdisjoint(_list_launches(found, real))
             or _contains_any(parts, names, workspace)
         ):
             kept.append(path)
     return kept
+
+
+def _list_launches(found: Repository, robot: str) -> Iterator[str]:
+    """Yield the resolved paths of the files that pass arguments to a robot."""
+    if robot in found.robots:
+        for place in found.robots[robot].places:
+            yield os.path.realpath(place.rpartition(":")[0])
 
 
 def _contains_any(paths: Iterable[str], names: Sequence[bytes], workspace: Workspace) -> bool:
