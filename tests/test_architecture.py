@@ -690,7 +690,7 @@ def test_blocks_are_opened_by_the_model_and_its_rules():
 
 def elements_used(path):
     """Yield the rules for several formats that use ``element``, also in functions they call."""
-    functions = {f.name: f for f in TREES[path].body if isinstance(f, ast.FunctionDef)}
+    functions = {f.name: f for f in tree_of(path).body if isinstance(f, ast.FunctionDef)}
     for name, function in functions.items():
         if not any("formats=" in ast.unparse(mark) for mark in function.decorator_list):
             continue
