@@ -704,7 +704,10 @@ def elements_used(path):
             following += (called & functions.keys()) - reached
 
 
-ELEMENT_OF_URDF = {"incomplete_inertial": "its other branch is that of SDF"}
+ELEMENT_OF_URDF = {
+    "incomplete_inertial": "its other branch is that of SDF",
+    "invalid_sdf_value": "<gazebo> is an element of URDF",
+}
 """Rules for several formats that use ``element``, with the reason."""
 
 

@@ -167,6 +167,26 @@ def test_a_prefix_reaches_all_files(arm):
     assert edited.is_proved
 
 
+@pytest.mark.parametrize(
+    "user",
+    [
+        '<joint name="k" type="revolute"><parent link="c"/><child link="d"/><mimic joint="j"/>'
+        '<limit lower="0" upper="1" effort="1" velocity="1"/></joint><link name="d"/>',
+        '<transmission name="t"><joint name="j"/></transmission>',
+        '<ros2_control name="r"><joint name="j"/></ros2_control>',
+        "",
+    ],
+)
+def test_fixed_joints_that_others_name_are_kept(write, user):
+    shape = "<visual><geometry><sphere radius='1'/></geometry></visual>"
+    text = "".join(f'<link name="{name}">{shape}</link>' for name in "abc") + user
+    for name, parent, child in ("iab", "jbc"):
+        ends = f'<parent link="{parent}"/><child link="{child}"/>'
+        text += f'<joint name="{name}" type="fixed">{ends}</joint>'
+    robot = urdftool.load(write("r.urdf", f'<robot name="r">{text}</robot>')).merge_fixed().robot
+    assert ("i" in robot.joint, "j" in robot.joint) == (False, bool(user))
+
+
 def test_merged_masses_are_summed(plain):
     edited = plain.merge_fixed()
     robot = edited.robot
@@ -295,6 +315,7 @@ def test_xacro_is_expanded(write):
 BAD = {
     "no link": (lambda r: r.change_root("tipp"), "link 'tipp' does not exist"),
     "no joint": (lambda r: r.change_zero({"elbow": 1}), "joint 'elbow' does not exist"),
+    "far": (lambda r: r.change_zero({"shoulder": 1e17}), "a zero at 1e+17 is too far for limits"),
     "no position": (lambda r: r.reverse_sign(["camera_mount"]), "'camera_mount' is fixed"),
     "root cut": (lambda r: r.cut("base"), "is the root"),
     "prefix": (lambda r: r.prefix("a b"), "cannot be a prefix"),
@@ -330,6 +351,8 @@ def test_bad_input_is_an_error(plain, name):
          lambda r: r.prefix("l_"), "is computed"),
         ('<parent link="base"/>', '<parent link="nowhere"/>',
          lambda r: r.change_root("tip"), "link 'nowhere' does not exist"),
+        ('size="0.1 0.2 0.3"', 'size="0.1 0.2 0,3"',
+         lambda r: r.merge_fixed(), "size of <box> in link 'base' has '0,3' with a comma"),
     ],
 )  # fmt: skip
 def test_a_robot_that_cannot_be_edited(write, old, new, operation, message):

@@ -18,6 +18,10 @@ class Change(NamedTuple):
         """Return the new position."""
         return self.sign * value + self.zero
 
+    def invert(self, value: float) -> float:
+        """Return the old position of a new one."""
+        return self.sign * (value - self.zero)
+
     def format(self, text: str | None) -> str | None:
         """Return the text of a new position; None if the text is not a number."""
         value = number(text)

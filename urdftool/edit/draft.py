@@ -11,6 +11,7 @@ from typing import TypeVar
 from ..diagnostic import Severity
 from ..errors import ModelError
 from ..finding import Finding
+from ..lint.validate import require
 from ..model.elements import Joint, Link, Robot
 from ..model.load import make_robot
 from ..model.part import Origin
@@ -281,12 +282,14 @@ def open_file(description: Description, file: SourceFile) -> Draft:
     """Return a draft of other bytes of a description, whose paths mean the same.
 
     Raises:
-        ModelError: The links do not form a tree with one root.
+        ModelError: The links do not form a tree with one root, or a number cannot be read, so that
+            the result could not be compared.
     """
     plain = replace(description, document=parse(file), files=[file], expansion=None, arguments={})
     robot = make_robot(plain)
     parse_source(file)
     _check_tree(robot)
+    require(robot, "edit")
     return Draft(file=file, robot=robot)
 
 

@@ -39,7 +39,8 @@ def merge_fixed(draft: Draft, keep: Sequence[str] = (), *, frames: bool = False)
     """Merge links that are fixed to others; return the names of the merged ones.
 
     Kept are links that match ``keep``, those that an SRDF, a YAML file around or a ``<gazebo>``
-    refers to, links fixed to an empty world, and frames without mass and geometry.
+    refers to, those on joints that another joint, an SRDF, a YAML file, a transmission or a
+    controller refers to, links fixed to an empty world, and frames without mass and geometry.
 
     Args:
         draft: The robot.
@@ -75,13 +76,20 @@ def _find_kept(draft: Draft, keep: Sequence[str], *, frames: bool) -> set[str]:
     kept |= {e.get("reference") or "" for e in draft.root.list_children("gazebo")}
     kept |= list_ends(draft)
     kept |= {joint.child for joint in robot.joints if _has_sensor(draft, joint.name)}
+    joints = {joint.mimic.joint for joint in robot.joints if joint.mimic is not None}
+    for block in draft.root.children:
+        if block.tag in ("transmission", "ros2_control"):
+            joints |= {element.get("name") or "" for element in block.walk()}
     for file in draft.around:
         if isinstance(file, YamlDraft):
-            kept |= {part for n in list_scalars(file.file) for part in (n.text or "").split("/")}
+            named = {part for n in list_scalars(file.file) for part in (n.text or "").split("/")}
+            kept |= named
+            joints |= named
             continue
-        found = find_references(file.source.document.root, "link")
-        kept |= {element.get(at) or "" for element, at, essential in found if essential}
-    return kept
+        for names, kind in ((kept, "link"), (joints, "joint")):
+            found = find_references(file.source.document.root, kind)
+            names |= {element.get(at) or "" for element, at, essential in found if essential}
+    return kept | {joint.child for joint in robot.joints if joint.name in joints}
 
 
 def _has_sensor(draft: Draft, joint: str) -> bool:

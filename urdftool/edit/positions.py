@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from ..errors import ModelError
@@ -16,6 +17,9 @@ from .closed_loops import check_zeros
 from .draft import Draft
 from .numbers import format_number, negate_text
 from .references import list_gazebo_blocks, report_text
+
+_LOST = 1e-9
+"""Largest change of a limit by rounding [rad, m], relative above 1; chosen, below the proof's."""
 
 
 def change_positions(draft: Draft, changes: Mapping[str, Change]) -> None:
@@ -90,6 +94,16 @@ def _change_pair(
     low, high = (change.format(element.get(name) or "0") for name in names)
     if low is None or high is None:
         raise ModelError("a limit is not a number", at=element.place)
+    before = [number(element.get(name) or "0") for name in names]
+    for old, new in zip(before, map(number, (low, high)), strict=True):
+        assert old is not None
+        assert new is not None
+        if not math.isclose(change.invert(new), old, rel_tol=_LOST, abs_tol=_LOST):
+            raise ModelError(
+                f"a zero at {-change.zero * change.sign:g} is too far for limits in double "
+                "precision; give one near the limits",
+                at=element.place,
+            )
     if change.sign < 0:
         low, high = high, low
     for name, text in zip(names, (low, high), strict=True):

@@ -102,6 +102,9 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             *ENDS,
         ),
         "join": ENDS,
+        "edit": (
+            Requirement("not-a-number", _make_conditions(part=("link", "joint", "material"))),
+        ),
         "export": STRUCTURE,
         "simulate": (
             Requirement("missing-collision"),
