@@ -99,7 +99,17 @@ BELOW = {
     "info": ("model", "geometry", *BASE),
     "compare": ("geometry", "mechanics", "model", "source", *BASE),
     "edit": (
-        *("bundle", "compare", "mechanics", "rules", "finding", "geometry", "model", "source"),
+        *(
+            "bundle",
+            "compare",
+            "mechanics",
+            "lint",
+            "rules",
+            "finding",
+            "geometry",
+            "model",
+            "source",
+        ),
         *("output", *BASE),
     ),
     "api": (
