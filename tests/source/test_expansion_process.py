@@ -1,5 +1,6 @@
 """The process that expands: what it can do, and what comes of answers that are not as expected."""
 
+import json
 import os
 import socket
 import subprocess
@@ -153,7 +154,10 @@ def test_a_result_that_is_not_as_expected_is_an_error(path, monkeypatch, result)
     whole = {"encodings": ["utf-8"], "call_table": [], "stack_table": [[]], "arguments": []}
     whole |= {"warnings": [], "included": []}
     sent = {**whole, **result} if result and "encodings" not in result else result
-    monkeypatch.setattr(expansion_child.Writer, "write_result", lambda *_: sent)
+    piece = json.dumps(sent.pop("nodes", [])).encode() if sent else b""
+    if sent:
+        sent["pieces"] = [len(piece)]
+    monkeypatch.setattr(expansion_child.Writer, "write_result", lambda *_: (sent, [piece]))
     with pytest.raises(XacroError, match="invalid result"):
         expand(path)
 
@@ -161,7 +165,7 @@ def test_a_result_that_is_not_as_expected_is_an_error(path, monkeypatch, result)
 @FORKS
 def test_an_answer_of_too_many_values_is_not_parsed(path, monkeypatch):
     monkeypatch.setattr(expansion_channel, "MAX_VALUES", 1000)
-    monkeypatch.setattr(expansion_child.Writer, "write_result", lambda *_: [[]] * 2000)
+    monkeypatch.setattr(expansion_child.Writer, "write_result", lambda *_: ([[]] * 2000, []))
     with pytest.raises(XacroError, match="exceeds a limit"):
         expand(path)
 

@@ -24,7 +24,7 @@ from tests.source.test_last_expansion import (
     list_facts,
 )
 from urdftool.errors import XacroError
-from urdftool.source import expansion_server, limits
+from urdftool.source import expansion_json, expansion_server, limits
 from urdftool.source.document import read_file
 from urdftool.source.expand import expand_xacro
 from urdftool.source.expansion_server_child import serve_connection
@@ -78,6 +78,48 @@ def test_an_expansion_is_as_without_the_server(folder, base):
         assert found[0] == found[1]
         base.expansion_server.prepare()
     assert base.expansion_server.used > 0
+
+
+def test_only_nodes_that_changed_are_read_again(folder, base, monkeypatch):
+    read = []
+
+    class Piece(expansion_json.Piece):
+        def __init__(self, text):
+            read.append(text)
+            super().__init__(text)
+
+    monkeypatch.setattr(expansion_json, "Piece", Piece)
+    for changes in ({}, {"main.xacro": MAIN.replace('"end"', '"last"')}):
+        read.clear()
+        expand_with(base, folder, changes)
+        base.expansion_server.prepare()
+    assert len(read) == 1
+    assert b'"last"' in read[0]
+
+
+PREFIXED = MAIN.replace(
+    '<link name="end"/>', '<link name="end"><xacro:element xacro:name="q:b"/></link>'
+)
+
+
+@pytest.mark.parametrize(
+    ("before", "text", "message"),
+    [
+        (MAIN, MAIN.replace('"end"', """"${'\\x01'}\""""), "XML does not allow"),
+        (
+            PREFIXED.replace("<robot", '<robot xmlns:q="y"'),
+            PREFIXED.replace("end", "last"),
+            "prefix of 'q:b'",
+        ),
+        (PREFIXED.replace("<robot", '<robot xmlns:q="y"'), PREFIXED, "prefix of 'q:b'"),
+    ],
+)
+def test_a_tree_that_cannot_be_written_is_reported_each_time(folder, base, before, text, message):
+    expand_with(base, folder, {"main.xacro": before})
+    for _ in range(2):
+        base.expansion_server.prepare()
+        with pytest.raises(XacroError, match=message):
+            expand_with(base, folder, {"main.xacro": text})
 
 
 @pytest.mark.parametrize("text", ["<robot>", "<robot xmlns:xacro='x'><a b='${1 +}'/></robot>"])

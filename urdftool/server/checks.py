@@ -25,17 +25,22 @@ _NOT_CHECKED = "only its XML is checked while you edit; run 'urdftool lint' for 
 class _Reads:
     """Observer that keeps what was read, and passes on why something could not be."""
 
-    def __init__(self, on_errors: Callable[[list[Finding]], None], poll: Callable[[], None]):
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        on_errors: Callable[[list[Finding]], None],
+        poll: Callable[[], None],
+    ) -> None:
         self.descriptions: list[tuple[Description, Robot]] = []
         self.files: set[str] = set()
         self.errors: list[Finding] = []
-        self._on_errors, self.check_progress = on_errors, poll
+        self._knowledge, self._on_errors, self.check_progress = knowledge, on_errors, poll
 
     def receive_description(
         self, description: Description, robot: Robot | None, errors: list[Finding]
     ) -> None:
         """Keep a description and its robot."""
-        self.files |= {os.path.realpath(file.path) for file in description.files}
+        self.files |= {self._knowledge.get_path(file.path) for file in description.files}
         if robot is not None and not errors:
             self.descriptions.append((description, robot))
         if errors:
@@ -108,7 +113,7 @@ class Checks:
         def emit_errors(errors: list[Finding]) -> None:
             self._emit_result(robot, errors, None, reads)
 
-        reads = _Reads(emit_errors, self._poll)
+        reads = _Reads(self.knowledge, emit_errors, self._poll)
         report = self._run(robot, emit_errors, self._make_options(robot), reads)
         failed = [] if report.error is None else [make_error(self.knowledge, report.error, robot)]
         findings = [] if reads.errors else report.findings
@@ -124,7 +129,7 @@ class Checks:
         options: Options,
         reads: _Reads | None = None,
     ) -> Report:
-        reads = reads or _Reads(on_errors, self._poll)
+        reads = reads or _Reads(self.knowledge, on_errors, self._poll)
         report = check_file(robot, replace(options, observer=reads))
         state = self.knowledge.states.setdefault(robot, RobotState())
         state.files = {robot, *reads.files, *(state.files if reads.errors else ())}

@@ -83,6 +83,7 @@ class Knowledge:
         self._workspace: Workspace | None = None
         self.read_robots: Callable[[str], None] = lambda path: None
         self._words: dict[str, tuple[bytes, WordTable | None]] = {}
+        self._paths: dict[str, str] = {}
 
     # Documents and settings ----------------------------------------------------------------
 
@@ -124,6 +125,7 @@ class Knowledge:
         """Forget what was read from the disk, which has changed."""
         self._base = self._make_base()
         self._repositories = {}
+        self._paths = {}
         self._forget()
 
     def _make_base(self) -> Workspace:
@@ -304,12 +306,10 @@ class Knowledge:
         return table
 
     def get_path(self, path: str) -> str:
-        """Return a path as :func:`make_path`, computed once until the next change."""
-        key = "path", path
-        if key not in self.memo:
-            self.memo[key] = make_path(path)
-        found: str = self.memo[key]
-        return found
+        """Return a path as :func:`make_path`, computed once until the disk changes."""
+        if path not in self._paths:
+            self._paths[path] = make_path(path)
+        return self._paths[path]
 
     def get_offset(self, params: dict[str, Any]) -> int:
         """Return the byte of the position of a question."""

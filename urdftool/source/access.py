@@ -8,7 +8,7 @@ symbolic link does not lead out. Hidden files and folders, devices and pipes are
 from __future__ import annotations
 
 import os
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
@@ -226,7 +226,8 @@ class FileAccess:
         for variable in (*_PACKAGE_PATHS, *MODEL_PATHS):
             roots += (files.read_variable(variable) or "").split(os.pathsep)
         roots.append(_SYSTEM)
-        real = (Path(_resolve(files, folder)) for folder in roots if folder)
+        named = tuple(str(folder) for folder in roots if folder)
+        real = files.memoize((FileAccess, named), lambda inner: _resolve_all(inner, named))
         return list(dict.fromkeys((*real, *self._allowed)))
 
     def _is_in_package(self, real: Path, files: Workspace) -> bool:
@@ -277,6 +278,10 @@ def _is_irregular(path: Path, files: Workspace) -> bool:
 
 def _resolve(files: Workspace, path: str | Path) -> str:
     return files.resolve_links(os.path.abspath(path))
+
+
+def _resolve_all(files: Workspace, paths: Iterable[str]) -> list[Path]:
+    return [Path(_resolve(files, path)) for path in paths]
 
 
 def _shorten(folder: Path) -> str:

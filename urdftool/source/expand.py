@@ -8,7 +8,6 @@ from .expansion import Expansion
 from .expansion_process import expand
 from .location import SourceFile
 from .packages import Packages
-from .xml_text import check_writable
 
 
 def expand_xacro(
@@ -33,5 +32,4 @@ def expand_xacro(
     """
     result = Expansion(file, arguments, record=record)
     expand(result, packages)
-    check_writable(result.nodes)
     return result

@@ -9,7 +9,7 @@ from contextlib import suppress
 from typing import Any
 
 MAX_VALUES = 8_000_000
-"""Maximum number of separators in the JSON of an answer; chosen, for 1 GB of memory."""
+"""Maximum number of separators in an answer; chosen, for 1 GB of memory."""
 
 _HEAD = 16  # bytes: lengths of JSON and data, each as 8 digits in base 16
 
@@ -55,10 +55,12 @@ class Channel:
         length, size = int(head[:8], 16), int(head[8:], 16)
         if length + size > most:
             raise Ended
-        text = self._read(length)
-        if most < sys.maxsize and sum(map(text.count, (b",", b"[", b"{"))) > MAX_VALUES:
-            raise Ended
-        return json.loads(text), self._read(size)
+        text, data = self._read(length), self._read(size)
+        if most < sys.maxsize:
+            values = sum(part.count(sign) for part in (text, data) for sign in (b",", b"[", b"{"))
+            if values > MAX_VALUES:
+                raise Ended
+        return json.loads(text), data
 
     def _read(self, size: int) -> bytes:
         parts = []

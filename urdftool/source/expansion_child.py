@@ -93,16 +93,17 @@ def expand_job(
     result = Expansion(file, job["given"], record=job["record"])
     files = RequestedFiles([file, *included], prepared.answers, channel, mark)
     run = Run(result, files, trusted=job["trusted"], codes=prepared.codes)
+    pieces: list[bytes] = []
     try:
         names = run.expand()
-        value = Writer(files.files).write_result(result, names)
+        value, pieces = Writer(files.files).write_result(result, names)
     except UrdftoolError as error:
         value = Writer(files.files).write_error(error)
     except Exception as error:
         value = {"bug": f"{type(error).__name__}: {error}, at {_format_traceback(error)}"}
     with suppress(OSError):  # the other side has ended
         texts = [text for text in run.codes.keys() - prepared.codes if len(text) <= MAX_TEXT]
-        channel.send(["result", value, files.list_used(), texts])
+        channel.send(["result", value, files.list_used(), texts], b"".join(pieces))
 
 
 def _format_traceback(error: Exception) -> str:

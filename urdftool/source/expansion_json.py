@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import codecs
+import json
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import Any, TypeVar, get_args
 
 from ..errors import PackageNotFound, SourceError, UrdftoolError, XacroError, XmlError
@@ -45,14 +47,18 @@ class Writer:
         self._stack_indices: dict[int, int] = {}
         self._kept: list[object] = []  # objects whose id() is a key
 
-    def write_result(self, result: Expansion, included: Sequence[str]) -> Json:
+    def write_result(self, result: Expansion, included: Sequence[str]) -> tuple[Json, list[bytes]]:
         """Return an expansion and the files that xacro included.
+
+        Returns:
+            Its values without its nodes, and its nodes as :func:`split_nodes` does.
 
         Raises:
             XacroError: The tree is too deep.
         """
-        return self._finish(
-            nodes=self._list_nodes(result.tree),
+        pieces = split_nodes(self._list_nodes(result.tree))
+        value = self._finish(
+            pieces=[len(piece) for piece in pieces],
             arguments=[
                 (a.name, a.default, self._write_place(a.place)) for a in result.arguments.values()
             ],
@@ -61,6 +67,7 @@ class Writer:
             read=[self._files[id(file)] for file in result.files.values()],
             lookups=self._list_lookups(result.lookups or ()),
         )
+        return value, pieces
 
     def write_error(self, error: UrdftoolError) -> Json:
         """Return an error."""
@@ -145,6 +152,20 @@ class Writer:
         return index
 
 
+def split_nodes(nodes: Sequence[Any]) -> list[bytes]:
+    """Return nodes as JSON: one piece for each child of the root element.
+
+    The first piece has what is before the first child.
+    """
+    starts = [index for index, node in enumerate(nodes) if node[0] <= _CHILD]
+    starts = [0, *(index for index in starts if index > starts[0]), len(nodes)] if starts else [0]
+    encode = json.JSONEncoder(check_circular=False).encode
+    return [encode(nodes[start:end]).encode("ascii") for start, end in pairwise(starts)]
+
+
+_CHILD = 2  # depth of the children of the root element
+
+
 def _is_indentation(node: Characters) -> bool:
     """Tell whether a node is white space next to another kind of node, which no reader uses."""
     if node.nodeType != TEXT or not node.data.isspace():
@@ -156,11 +177,22 @@ def _is_indentation(node: Characters) -> bool:
 
 
 class Reader:
-    """Conversion of JSON to an expansion or an error, by the side that reads files."""
+    """Conversion of JSON to an expansion or an error, by the side that reads files.
 
-    def __init__(self, value: Json, files: Sequence[SourceFile]) -> None:
-        """Set the JSON of :class:`Writer` and the files to which it refers."""
+    Attributes:
+        pieces: Nodes of the last expansion of the description by their JSON; after one was read,
+            its own.
+        new: Nodes of the expansion that are not in a known piece, and those before the first child
+            of the root element.
+    """
+
+    def __init__(
+        self, value: Json, files: Sequence[SourceFile], pieces: dict[bytes, Piece] | None = None
+    ) -> None:
+        """Set the JSON of :class:`Writer`, the files to which it refers, and the known pieces."""
         self._value = value
+        self.pieces = pieces or {}
+        self.new: list[ExpandedNode] = []
         self._files = files
         for file, encoding in zip(files, value["encodings"], strict=False):
             file.encoding = codecs.lookup(_require_text(encoding)).name and encoding
@@ -176,12 +208,12 @@ class Reader:
             tuple(_pick(calls, index) for index in stack) for stack in value["stack_table"]
         ]
 
-    def read_result(self, result: Expansion) -> list[str]:
+    def read_result(self, result: Expansion, data: bytes) -> list[str]:
         """Set files, nodes, arguments and warnings of an expansion; return the included files."""
         value = self._value
         read = [_pick(self._files, index) for index in value["read"]]
         result.files = {file.path: file for file in read}
-        result.nodes = self._read_nodes(value["nodes"])
+        result.nodes = self._read_nodes(data)
         for name, default, place in value["arguments"]:
             argument = Argument(
                 _require_text(name), _require_text(default), self._read_place(place)
@@ -234,31 +266,84 @@ class Reader:
             raise ValueError(f"from byte {start} to byte {end}")
         return Place(file, start, end, _pick(self._stacks, calls))
 
-    def _read_nodes(self, nodes: Any) -> list[ExpandedNode]:
+    def _read_nodes(self, data: bytes) -> list[ExpandedNode]:
         """Return nodes whose values have the expected types, below one root element."""
         found: list[ExpandedNode] = []
         files, stacks = self._files, self._stacks
         sizes = [len(file.data) for file in files]
-        reached, roots = 1, 0
-        for node in nodes:
+        known, self.pieces = self.pieces, {}
+        start, reached, roots = 0, 1, 0
+        for length in self._value["pieces"]:
+            text = data[start : start + _require_number(length)]
+            start += length
+            piece = known.get(text) or Piece(text)
+            self.pieces[text] = piece
+            if piece.depth > reached:
+                raise ValueError(f"depth {piece.depth} below {reached}")
+            if piece.most_calls >= len(stacks):
+                raise ValueError(f"stack {piece.most_calls} of {len(stacks)}")
+            for file, most in piece.most_starts.items():
+                if most > sizes[file]:
+                    raise ValueError(f"byte {most} of a file of {sizes[file]}")
+            begin = len(found)
+            found += [
+                node
+                if len(node) != _PARTS
+                else (*node[:3], files[node[3]], node[4], stacks[node[5]])
+                for node in piece.nodes
+            ]
+            if not roots or text not in known:
+                self.new += found[begin:]
+            reached, roots = piece.reached, roots + piece.roots
+            if piece.roots and text not in known:
+                known = {}  # what it declares decides which names are right below it
+        if roots != 1:
+            raise ValueError(f"{roots} root elements")
+        return found
+
+
+class Piece:
+    """Nodes of a part of an expanded tree, whose values have the expected types.
+
+    Attributes:
+        nodes: The nodes; of an element with the indices of its file and of its stack of calls.
+        depth: Depth of the first node.
+        reached: Maximum depth of a node after the last one.
+        roots: Number of root elements.
+        most_starts: Last byte at which an element starts, by index of the file.
+        most_calls: Last index of a stack; -1 without elements.
+    """
+
+    __slots__ = ("depth", "most_calls", "most_starts", "nodes", "reached", "roots")
+
+    def __init__(self, text: bytes) -> None:
+        """Read nodes as JSON.
+
+        Raises:
+            TypeError, ValueError, LookupError: A value is not as expected.
+        """
+        self.nodes: list[tuple[Any, ...]] = []
+        self.most_starts: dict[int, int] = {}
+        self.most_calls, self.roots, self.reached = -1, 0, MAX_DEPTH + 1
+        for node in json.loads(text):
             if len(node) != _PARTS:
-                reached, kind, data = _read_characters(node, reached)
-                found.append((reached, kind, data))
+                self.reached, kind, data = _read_characters(node, self.reached)
+                self.nodes.append((self.reached, kind, data))
                 continue
             depth, kind, data, file, start, calls = node
             if not type(depth) is type(file) is type(start) is type(calls) is int:
                 raise TypeError(f"{node!r} in place of numbers")
             if type(kind) is not str or not _TEXTS.issuperset(map(type, data.values())):
                 raise TypeError("a tag or the value of an attribute is not text")
-            if not 0 < depth <= reached:
-                raise ValueError(f"depth {depth} below {reached}")
-            if file < 0 or calls < 0 or not 0 <= start <= sizes[file]:
-                raise ValueError(f"byte {start} of a file of {sizes[file]}")
-            found.append((depth, kind, data, files[file], start, stacks[calls]))
-            reached, roots = min(depth, MAX_DEPTH) + 1, roots + (depth == 1)
-        if roots != 1:
-            raise ValueError(f"{roots} root elements")
-        return found
+            if not 0 < depth <= self.reached:
+                raise ValueError(f"depth {depth} below {self.reached}")
+            if file < 0 or calls < 0 or start < 0:
+                raise ValueError(f"{node!r}: a number is below 0")
+            self.nodes.append(tuple(node))
+            self.most_starts[file] = max(start, self.most_starts.get(file, 0))
+            self.most_calls = max(calls, self.most_calls)
+            self.reached, self.roots = min(depth, MAX_DEPTH) + 1, self.roots + (depth == 1)
+        self.depth: int = self.nodes[0][0]
 
 
 _TEXTS = frozenset((str,))

@@ -33,6 +33,7 @@ from .last_expansion import LastExpansion, Prepared, get_last_expansion
 from .location import Place, SourceFile
 from .packages import Packages
 from .well_formed import WIDE
+from .xml_text import check_writable
 
 MAX_ANSWER = 64 << 20
 """Maximum size of an expanded description [bytes]; chosen, the limit of a file is 32 MiB."""
@@ -115,15 +116,17 @@ def _run(result: Expansion, files: ExpansionFiles, modules: set[str]) -> None:
     }
     process = _start(job, result.file.data, files, prepared)
     try:
-        answer, *remembered = _serve_requests(process.channel, files, modules, last)
+        (answer, *remembered), data = _serve_requests(process.channel, files, modules, last)
         if "bug" in answer:
             raise RuntimeError(f"the expansion failed: {answer['bug']}")
-        reader = Reader(answer, files.files)
+        reader = Reader(answer, files.files, last.pieces)
         if "error" in answer:
             raise reader.read_error()
-        result.dependencies = files.finish(reader.read_result(result))
+        result.dependencies = files.finish(reader.read_result(result, data))
         last.finish(prepared, *remembered)
+        check_writable(reader.new)
         if server is not None:
+            last.pieces = reader.pieces
             server.keep(files.files[1:], last.texts, trusted=files.trusted)
     except _INVALID as error:
         code = process.end()
@@ -148,18 +151,19 @@ def _start(
 
 def _serve_requests(
     channel: Channel, files: ExpansionFiles, modules: set[str], last: LastExpansion
-) -> list[Any]:
+) -> tuple[list[Any], bytes]:
     """Serve the requests of the process until it sends its result; return that.
 
     Returns:
-        The result, the indices of the prepared answers that it used, and its expressions.
+        The result, the indices of the prepared answers that it used, and its expressions; and the
+        nodes of the result.
     """
     known = len(files.files)
     while True:
-        request, _ = channel.receive(MAX_ANSWER)
+        request, nodes = channel.receive(MAX_ANSWER)
         name = str(request[0])
         if name == "result":
-            return list(request[1:])
+            return list(request[1:]), nodes
         arguments = [str(word) for word in request[1:]]
         if name == "import":
             modules.update(_ON_DEMAND.intersection(arguments))

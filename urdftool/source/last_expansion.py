@@ -14,6 +14,7 @@ from typing import Any
 
 from ..errors import UrdftoolError
 from .expansion_files import ExpansionFiles
+from .expansion_json import Piece
 from .expressions import Expression, compile_expression
 from .location import SourceFile
 from .xacro_parse import parse_xacro
@@ -45,12 +46,18 @@ class Prepared:
 
 
 class LastExpansion:
-    """Requests and expressions of the last expansion of a description with its arguments."""
+    """Requests and expressions of the last expansion of a description with its arguments.
+
+    Attributes:
+        pieces: Its nodes by their JSON, if a server prepares the next one; they can be written as
+            XML.
+    """
 
     def __init__(self) -> None:
         """Create a memory without requests and expressions."""
         self._requests: dict[Words, None] = {}
         self._codes: dict[str, Expression | None] = {}
+        self.pieces: dict[bytes, Piece] = {}
 
     @property
     def texts(self) -> Iterable[str]:
