@@ -163,7 +163,7 @@ def split_nodes(nodes: Sequence[Any]) -> list[bytes]:
     return [encode(nodes[start:end]).encode("ascii") for start, end in pairwise(starts)]
 
 
-_CHILD = 2  # depth of the children of the root element
+_CHILD = 2  # depth of the children of the root element, by definition of depth
 
 
 def _is_indentation(node: Characters) -> bool:
