@@ -183,3 +183,10 @@ def test_folders_that_do_not_exist_are_a_warning(arm, tmp_path, call):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         call(arm, packages={"x": tmp_path}, package_paths=[tmp_path])
+
+
+def test_the_value_of_an_argument_is_a_text(tmp_path):
+    path = tmp_path / "arm.urdf.xacro"
+    path.write_text(ARM)
+    with pytest.raises(ConfigError, match="argument prefix is 3, which is not a text; write '3'"):
+        api.load(path, args={"prefix": 3})

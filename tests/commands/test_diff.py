@@ -82,6 +82,15 @@ def test_a_tolerance(urdftool, write):
     assert urdftool("diff", old, new, "--tolerance", "1e-3").code == 0
 
 
+@pytest.mark.parametrize("command", ["diff", "verify"])
+@pytest.mark.parametrize("value", ["nan", "inf"])
+def test_a_tolerance_is_a_finite_number(urdftool, write, command, value):
+    path = write("a.urdf", text())
+    result = urdftool(command, path, path, "--tolerance", value)
+    assert result.code == 2
+    assert f"'{value}' is not a finite number" in result.err
+
+
 def test_json_follows_its_schema(urdftool, write):
     old, new = write("old.urdf", text()), write("new.urdf", text(3, 0.512, 1.5))
     found = json.loads(urdftool("diff", old, new, "--format", "json").out)

@@ -87,6 +87,15 @@ def test_check_tells_stale_from_fresh(urdftool, arm, tmp_path, write):
     assert urdftool("expand", arm, "--check", "absent.urdf").code == 2
 
 
+def test_check_compares_blanks_within_a_text(urdftool, write, tmp_path):
+    robot = '<robot name="r"><link name="a"/><gazebo><t> a  b </t></gazebo></robot>'
+    path = write("r.urdf.xacro", robot)
+    write("same.urdf", robot.replace(" a  b ", "\n a  b\n"))
+    write("other.urdf", robot.replace("a  b", "a b"))
+    assert urdftool("expand", path, "--check", "same.urdf").code == 0
+    assert urdftool("expand", path, "--check", "other.urdf").code == 1
+
+
 def test_source_map(urdftool, arm):
     table = json.loads(urdftool("expand", arm, "--source-map", "-").out)
     schema = json.loads((ROOT / "docs" / "schemas" / "source-map.json").read_text())

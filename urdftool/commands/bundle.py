@@ -13,7 +13,7 @@ import click
 
 from ..console import Console
 from .grouped_help import GroupedCommand
-from .options import add_gltf_option, add_package_options, add_robot_argument
+from .options import FiniteRange, add_gltf_option, add_package_options, add_robot_argument
 from .read_other import read_any
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ _GROUPS = {
 )
 @click.option(
     "--max-error",
-    type=click.FloatRange(min=0, min_open=True, max=1),
+    type=FiniteRange(min=0, min_open=True, max=1),
     metavar="E",
     help="Maximum distance between a visual mesh and its reduction, as a fraction of the diagonal "
     "of the mesh's bounding box.  [default: 0.05 with --max-triangles]",

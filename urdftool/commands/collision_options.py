@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from .cache_options import CACHE_OPTIONS, choose_cache_folder
-from .options import make_format_option
+from .options import FiniteRange, make_format_option
 
 if TYPE_CHECKING:
     from ..collision.settings import Settings
@@ -99,7 +99,7 @@ _OPTIONS = (
     ),
     click.option(
         "--threshold",
-        type=click.FloatRange(0.01, 1.0),
+        type=FiniteRange(0.01, 1.0),
         default=0.06,
         show_default=True,
         metavar="T",

@@ -13,6 +13,7 @@ from ..console import Console
 from ..report.counted import format_count
 from .grouped_help import GroupedCommand
 from .options import (
+    FiniteRange,
     add_name_option,
     add_package_options,
     make_format_option,
@@ -36,7 +37,7 @@ _GROUPS = {"Comparison": "tolerance", "Output": "style output"}
 @make_output_option("Output file.  [default: standard output]")
 @click.option(
     "--tolerance",
-    type=click.FloatRange(0.0),
+    type=FiniteRange(0.0),
     metavar="T",
     help="Tolerance of numbers, relative; of origins, absolute [m and rad].  [default: 1e-9]",
 )

@@ -11,7 +11,7 @@ import click
 from ..console import Console
 from .edit_options import GROUPS, VECTOR, Words, add_edit_options, load_source, report_edit
 from .grouped_help import GroupedCommand
-from .options import split_robots
+from .options import FiniteRange, split_robots
 
 if TYPE_CHECKING:
     from ..edit.finish import Edited
@@ -331,7 +331,7 @@ def cut(console: Console, /, words: tuple[str, ...], drop: bool, **options: Any)
 @click.argument("words", nargs=-1, metavar="ROBOT [name:=value ...]")
 @click.option(
     "--tolerance",
-    type=click.FloatRange(0.0, 0.1, min_open=True, max_open=True),
+    type=FiniteRange(0.0, 0.1, min_open=True, max_open=True),
     default=1e-9,
     show_default=True,
     help="Largest change [m, rad]; relative for masses, tensors, sizes and numbers above 1.",

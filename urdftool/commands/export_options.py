@@ -11,7 +11,7 @@ import click
 
 from ..errors import ConfigError
 from ..formats.common.option import Option, get_default, list_options
-from .options import make_format_option
+from .options import FiniteRange, make_format_option
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -52,7 +52,7 @@ def _make_settings(one: Field[Any], option: Option) -> dict[str, Any]:
     if option.words:
         settings["type"] = click.Choice(option.words)
     elif option.kind is float:
-        settings["type"] = click.FloatRange(min=option.minimum)
+        settings["type"] = FiniteRange(min=option.minimum)
     elif option.kind is Path:
         settings["type"] = Path
     if option.check is not None:

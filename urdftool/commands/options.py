@@ -27,6 +27,19 @@ OF_SEVERAL = (".sdf", ".world", ".usd", ".usda", ".usdc", ".usdz")
 """Suffixes of files of several robots, one of which ``-r NAME`` after the file chooses."""
 
 
+class FiniteRange(click.FloatRange):
+    """A number in a range; NaN, which no bound excludes, and infinity are refused."""
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """Return the number, or stop with a message."""
+        number: float = super().convert(value, param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"'{value}' is not a finite number", param, ctx)
+        return number
+
+
 def split_arguments(words: tuple[str, ...]) -> tuple[list[str], dict[str, str]]:
     """Separate paths from xacro arguments, which are written ``name:=value``.
 

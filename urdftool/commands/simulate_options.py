@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from .options import parse_name_numbers
+from .options import FiniteRange, parse_name_numbers
 
 if TYPE_CHECKING:
     from ..simulation.settings import Settings
@@ -36,7 +36,7 @@ def _parse_payloads(
 _OPTIONS = (
     click.option(
         "--duration",
-        type=click.FloatRange(0, 3600, min_open=True),
+        type=FiniteRange(0, 3600, min_open=True),
         default=5.0,
         show_default=True,
         metavar="S",
@@ -44,7 +44,7 @@ _OPTIONS = (
     ),
     click.option(
         "--timestep",
-        type=click.FloatRange(1e-5, 0.05),
+        type=FiniteRange(1e-5, 0.05),
         default=0.002,
         show_default=True,
         metavar="S",
@@ -93,14 +93,14 @@ _OPTIONS = (
     ),
     click.option(
         "--slope",
-        type=click.FloatRange(-60, 60),
+        type=FiniteRange(-60, 60),
         default=0.0,
         metavar="DEG",
         help="Slope of the plane, downward along +x [degrees].",
     ),
     click.option(
         "--friction",
-        type=click.FloatRange(0),
+        type=FiniteRange(0),
         default=1.0,
         show_default=True,
         metavar="MU",
@@ -130,7 +130,7 @@ _OPTIONS = (
     click.option("--sweep", is_flag=True, help="Also move each joint from limit to limit."),
     click.option(
         "--time-limit",
-        type=click.FloatRange(0.1, 86400),
+        type=FiniteRange(0.1, 86400),
         default=60.0,
         show_default=True,
         metavar="S",

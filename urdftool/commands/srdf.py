@@ -10,6 +10,7 @@ import click
 from ..console import Console
 from .grouped_help import GroupedCommand
 from .options import (
+    FiniteRange,
     add_gltf_option,
     add_jobs_option,
     add_package_options,
@@ -74,7 +75,7 @@ _STYLES = ("srdf", "mjcf", "curobo", "pyroki", "usd", "table", "json")
 @click.option(
     "--time",
     "time_limit",
-    type=click.FloatRange(0.0),
+    type=FiniteRange(0.0),
     metavar="S",
     help="Time after which no proof begins; the pairs left stay enabled [s].  [default: no limit]",
 )

@@ -9,6 +9,7 @@ import click
 from ..console import Console
 from .grouped_help import GroupedCommand
 from .options import (
+    FiniteRange,
     add_gltf_option,
     add_name_option,
     add_package_options,
@@ -33,7 +34,7 @@ _GROUPS = {"Comparison": "only tolerance names", "Output": "style output"}
 )
 @click.option(
     "--tolerance",
-    type=click.FloatRange(0.0),
+    type=FiniteRange(0.0),
     metavar="T",
     help="Tolerance of every row, in the unit of the row.  [default: that of the row]",
 )

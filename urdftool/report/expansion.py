@@ -81,7 +81,7 @@ def _escape(path: str) -> str:
 def make_diff_with_committed(expansion: Expansion, committed: str) -> str:
     """Return a unified diff from a committed URDF to the expansion; empty if they are equal.
 
-    Comments and layout are ignored.
+    Comments and layout are ignored: blanks around a text, and those between elements.
     """
     from difflib import unified_diff
 
@@ -100,7 +100,7 @@ def _format_lines(element: Element, indent: str = "") -> list[str]:
         for name, value in sorted(element.attributes.items())
         if name != "xmlns:xacro"
     )
-    text = " ".join(element.text.split())
+    text = " ".join(element.text.split()) if element.children else element.text.strip()
     if not element.children:
         end = f">{text}</{element.tag}>" if text else "/>"
         return [f"{indent}<{element.tag}{attributes}{end}"]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from ..errors import ConfigError
 from ..memo import Memo
 from ..workspace import Workspace
 from .document import STDIN, Document, parse, read_file
@@ -100,6 +101,7 @@ def read_description(
 
     Raises:
         SourceError: It, or an included file, cannot be read or expanded.
+        ConfigError: The value of an argument is not a text.
     """
     workspace = workspace or (Workspace() if finder is None else finder.files)
     file = file or read_file(path, workspace)
@@ -111,6 +113,9 @@ def read_description(
         workspace=workspace,
     )
     arguments = dict(arguments or {})
+    for name, value in arguments.items():
+        if not isinstance(value, str):
+            raise ConfigError(f"argument {name} is {value!r}, which is not a text; write '{value}'")
     if not is_xacro(file):
         return Description(str(path), parse(file), [file], finder, arguments, gltf_up=gltf_up)
     from .expand import expand_xacro
