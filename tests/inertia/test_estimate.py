@@ -157,6 +157,14 @@ def test_bodies_that_overlap_by_half_are_united():
     assert [note.data["counted"] for note in got.notes if note.code == "bodies-overlap"] == [1]
 
 
+def test_the_error_of_samples_is_that_of_the_moments_too():
+    box = trimesh.creation.box()
+    found = estimate_mass_properties(np.array(box.vertices), np.array(box.faces)[:-1], density=1.0)
+    tensor = np.array(found.properties.tensor)[[0, 3, 5, 1, 2, 4]]
+    error = 6 * np.abs(tensor - np.array([1 / 6] * 3 + [0] * 3)).max()
+    assert error <= found.error < 0.005
+
+
 def test_every_face_written_for_both_sides():
     mesh = trimesh.creation.icosphere(subdivisions=2)
     faces = np.concatenate([mesh.faces, mesh.faces[:, ::-1]])

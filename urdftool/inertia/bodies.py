@@ -24,7 +24,7 @@ from ..source.description import GltfUp
 from ..storage import DiskCache, cache_key
 from .inertia_error import InertiaError
 
-_REVISION = 2
+_REVISION = 3
 """Of the mass properties of the same mesh. Chosen, no source."""
 
 _PLAIN: dict[str, tuple[type, ...]] = {
@@ -54,7 +54,7 @@ class MeshBody:
     """Method as in ``Estimate.method``; ``"surface"`` for a shell."""
     reliable: bool
     error: float
-    """Estimated relative error of the volume."""
+    """Estimated relative error of volume, center and moments."""
     hull_measure: float | None
     """Volume [m³] of the convex hull; None if the result is exact."""
     bodies: int
