@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.formats.usd.stages import body, stage, turning
+from tests.formats.usd.stages import BOX, body, export, joint, link, robot, stage, turning
 from urdftool.errors import ModelError
+from urdftool.formats.usd.read import read as read_usd
 
 pytestmark = pytest.mark.library("pxr")
 
@@ -110,6 +111,24 @@ def test_bodies_on_the_world_are_fixed_to_the_base(read):
     assert (two.type, two.parent, two.child) == ("fixed", "a", "b")
     assert two.origin.xyz == pytest.approx((0, 0, 0))
     assert "unread-anchor" in codes(reading)
+
+
+def test_a_stage_of_cloned_robots_has_the_links_of_one(write, tmp_path):
+    hinge = joint("j", "a", "b", "continuous")
+    path = write("r.urdf", robot(link("a", 1, BOX), hinge, link("b", 1, BOX)))
+    (tmp_path / "r.usda").write_bytes(export(path, file="r.usda").files["r.usda"])
+    clones = "".join(
+        f'        def Xform "env_{n}" (references = @./r.usda@)\n        {{\n        }}\n'
+        for n in range(2)
+    )
+    text = '#usda 1.0\n(\n    defaultPrim = "World"\n    upAxis = "Z"\n)\n'
+    text += f'def Xform "World"\n{{\n    def Scope "envs"\n    {{\n{clones}    }}\n}}\n'
+    (tmp_path / "envs.usda").write_text(text)
+    reading = read_usd(tmp_path / "envs.usda")
+    assert set(reading.robot.link) - {"world"} == {"a", "b"}
+    found = codes(reading)
+    assert "unread-articulation" in found
+    assert "unread-scenery" not in found
 
 
 def test_of_two_articulations_the_larger_is_read(read):

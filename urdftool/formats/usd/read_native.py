@@ -99,16 +99,12 @@ def _list_others(context: Context, seen: set[str]) -> Iterator[NativeElement]:
 
 
 def _is_of_another_robot(context: Context, prim: Usd.Prim) -> bool:
-    """Tell whether a prim is a body that is not read, is below one, or joins only such bodies."""
+    """Tell whether a prim is of another robot, or joins only bodies that are not read."""
     if prim.IsA(UsdPhysics.Joint):
         ends = [end for n in (0, 1) for end in get_targets(prim, f"physics:body{n}")]
         prims = [context.stage.GetPrimAtPath(end) for end in ends]
         return bool(ends) and not any(one and context.find_body(one) for one in prims)
-    while prim:
-        if prim.HasAPI(UsdPhysics.RigidBodyAPI):
-            return str(prim.GetPath()) not in context.bodies
-        prim = prim.GetParent()
-    return False
+    return context.is_of_other(prim)
 
 
 def _shorten(context: Context, path: str) -> str:

@@ -48,6 +48,8 @@ def choose_bodies(context: Context, joints: Iterable[Ends]) -> None:
         if path not in chosen and not any(path in bodies for _, bodies in others):
             text = "bodies that no joint connects to the robot are not read"
             context.report_loss("body", text, prim, Severity.INFO)
+    context.others = {str(prim.GetPath()): prim for prim, _ in others}
+    context.others |= {path: prim for path, prim in context.bodies.items() if path not in chosen}
     context.bodies = {path: prim for path, prim in context.bodies.items() if path in chosen}
 
 

@@ -45,7 +45,7 @@ _EVEN = 1e-6
 def add_shapes(context: Context, robot: Robot, folder: MeshFolder) -> None:
     """Add the visible shapes and the collision shapes of every body and frame."""
     for prim in context.iterate_prims():
-        if not prim.IsA(UsdGeom.Gprim):
+        if not prim.IsA(UsdGeom.Gprim) or context.is_of_other(prim):
             continue
         owner = _find_owner(context, prim)
         collides = _is_collider(prim)

@@ -41,6 +41,7 @@ class Context:
         chosen: Name of the articulation that is read; empty for the one with most bodies.
         is_ours: Whether urdftool wrote the stage.
         bodies: Prims of rigid bodies by path, in the order of the stage.
+        others: Prims of other robots and bodies, which are not read, by path.
         joints: Prims of joints, in the order of the stage.
         names: Name of the link of each body or frame, by path.
         shifts: Pose of the frame of each link in the frame of its prim, by path.
@@ -63,6 +64,7 @@ class Context:
         self.is_ours = bool(self.top.GetCustomDataByKey("urdf:root"))
         self._cache = UsdGeom.XformCache()
         self.bodies: dict[str, Usd.Prim] = {}
+        self.others: dict[str, Usd.Prim] = {}
         self.joints: list[Usd.Prim] = []
         for prim in self.iterate_prims():
             if _is_body(prim):
@@ -198,6 +200,14 @@ class Context:
         while prim and str(prim.GetPath()) not in self.bodies:
             prim = prim.GetParent()
         return str(prim.GetPath()) if prim else ""
+
+    def is_of_other(self, prim: Usd.Prim) -> bool:
+        """Tell whether a prim is, or is below, one of another robot, which is not read."""
+        while prim and str(prim.GetPath()) not in self.bodies:
+            if str(prim.GetPath()) in self.others:
+                return True
+            prim = prim.GetParent()
+        return False
 
     def report_loss(
         self, code: str, what: str, prim: Usd.Prim, severity: Severity = Severity.WARNING

@@ -144,6 +144,8 @@ def _find_frames(context: Context) -> dict[str, tuple[str, Pose]]:
         path = str(prim.GetPath())
         if path in context.bodies or not prim.GetCustomDataByKey("urdf:link"):
             continue
+        if context.is_of_other(prim):
+            continue
         body = context.find_body(prim)
         at = context.get_pose(context.bodies[body]).invert() if body else IDENTITY
         found[path] = (body, at @ context.get_pose(prim))
