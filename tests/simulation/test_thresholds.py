@@ -132,6 +132,15 @@ def test_sliding_and_turning_joints_have_a_bound_each(write, kind, bounds, rests
     assert (found[-1] is not None) is rests
 
 
+def test_the_size_of_a_robot_without_collisions_is_that_of_its_origins(write):
+    text = SLIDER.format(kind="revolute")
+    start, end = text.index("<collision>"), text.rindex("</collision>") + len("</collision>")
+    bare = text[:start] + text[end:]
+    assert "<collision>" not in bare
+    bodies = prepare(load(write("r.urdf", bare)), Settings(fixed_base=True))
+    assert bodies.size == pytest.approx(9.0)
+
+
 @pytest.mark.parametrize(
     ("move", "rests"),
     [

@@ -123,7 +123,8 @@ class RigidBodyModel:
         start: Pose of the root in the world.
         positions: Initial positions of joints by name [rad, m], with those of mimic joints.
         held: Names of the held joints.
-        size: Largest extent of the collision geometry at the start [m].
+        size: Largest extent of the collision geometry at the start [m]; without any, that of the
+            origins of the bodies.
         moved_start: Positions of joints that start at a limit, because 0 is outside their range,
             by name [rad, m].
     """
@@ -170,13 +171,14 @@ def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
     shapes = [(back @ poses[body.name], body.shapes) for body in made]
     at_origin = fixed_base and _is_world(robot.link[top])
     start, size = spawn_pose(shapes, settings, fixed=fixed_base, at_origin=at_origin)
+    origins = np.array([pose.translation for pose, _ in shapes])
     return RigidBodyModel(
         tuple(made),
         fixed_base,
         start,
         positions,
         list_held_joints(robot, made, settings),
-        size,
+        size or float(np.ptp(origins, axis=0).max()),
         clamped,
     )
 
