@@ -197,15 +197,18 @@ class Stillness:
         """Estimate how far each value would move from here within the horizon.
 
         The rate changes in each half of a window by the same factor, but does not grow. Values
-        that go to and fro do not move.
+        that go to and fro do not move; nor do those that slow down within two windows, in which
+        they stay within twice their bounds.
         """
         times = np.array([time for time, *_ in self.seen])
         half = len(times) // 2 + 1
         before = np.polyfit(times[:half], values[:half], 1)[0]
         after = np.polyfit(times[-half:], values[-half:], 1)[0]
         ratio = np.abs(after) / np.maximum(np.abs(before), 1e-12)
-        lasts = (times[-1] - times[0]) / 2 * ratio / np.maximum(1 - ratio, 1e-12)
-        return np.where(before * after > 0, np.abs(after) * np.minimum(lasts, self.horizon), 0.0)
+        window = times[-1] - times[0]
+        lasts = window / 2 * ratio / np.maximum(1 - ratio, 1e-12)
+        goes_on = (before * after > 0) & (lasts > 2 * window)
+        return np.where(goes_on, np.abs(after) * np.minimum(lasts, self.horizon), 0.0)
 
 
 def sweep(engine: str, bodies: RigidBodyModel, settings: Settings, folder: Path) -> list[Swept]:
