@@ -179,6 +179,10 @@ def test_images_are_scaled_down(urdftool, write, tmp_path):
     assert entry(tmp_path, "skin.png")["before"]["pixels"] == [[64, 16], [32, 8]]
     before = (tmp_path / "out" / "meshes" / "a.obj").read_bytes()
     assert before == Path("a.obj").read_bytes()
+    write("skin.png", image(64, 16)[:60])  # damaged
+    result = bundle(urdftool, write, "a.obj", "--max-texture", "32", "--overwrite")
+    assert "image 'meshes/skin.png' is kept, though --max-texture is 32" in result.err
+    write("skin.png", image(64, 16))
     # and inside a GLB, whose other contents stay
     bundle(urdftool, write, "a.obj", "--meshes", "glb", "--overwrite")
     write("b.glb", (tmp_path / "out" / "meshes" / "a.glb").read_bytes())

@@ -221,6 +221,7 @@ def test_rows_and_tolerances(urdftool, write):
     assert urdftool("verify", *files, "--only", "frames,mass").code == 0
     assert urdftool("verify", *files, "--only", "limits").code == 1
     assert urdftool("verify", *files, "--tolerance", "0.2").code == 0
+    assert urdftool("verify", *files, "--tolerance", "nan").code == 2
     assert [row.name for row in select_rows("center,lim", None)] == ["limits", "center of mass"]
     result = urdftool("verify", *files, "--only", "masses")
     assert result.code == 2

@@ -159,6 +159,7 @@ def make_bundle(
     }
     found_in_meshes = _report_conversions(robot, found, stored, options.limits.max_triangles)
     bundle.notes = [*found.notes, *found.defects, *found_in_meshes]
+    bundle.notes += _report_images(robot, stored, options.limits.max_texture)
     bundle.notes += changes
     bundle.manifest.changes += [change.message for change in changes]
     _add_origin(bundle, source_robot, stored)
@@ -241,6 +242,13 @@ def _report_conversions(
             why = stored.failed[asset]
             text = f"mesh '{mesh.filename}' of link '{link.name}' is not converted: {why}"
             yield Finding("unconverted-mesh", Severity.WARNING, text, place, "link", link.name)
+
+
+def _report_images(robot: Robot, stored: Stored, limit: int | None) -> Iterator[Finding]:
+    """Yield the images that are kept, and are larger than the limit or cannot be read."""
+    for asset, why in stored.large_images.items():
+        text = f"image '{stored.places[asset]}' is kept, though --max-texture is {limit}: {why}"
+        yield Finding("large-image", Severity.WARNING, text, robot.place, "robot", robot.name)
 
 
 def _format_uri(place: str, options: BundleOptions, package: str) -> str:

@@ -76,6 +76,7 @@ class Stored:
         losses: What a converted mesh lost, by asset.
         failed: Why a mesh was not converted, by asset.
         unreached: Number of triangles of a mesh that has more than the limit, by asset.
+        large_images: Why an image, or one in a mesh, is larger than the limit, by asset.
         missing: References to files that the source does not have, as written in the bundle, by
             path.
     """
@@ -89,6 +90,7 @@ class Stored:
     losses: dict[Asset, tuple[str, ...]] = field(default_factory=dict)
     failed: dict[Asset, str] = field(default_factory=dict)
     unreached: dict[Asset, int] = field(default_factory=dict)
+    large_images: dict[Asset, str] = field(default_factory=dict)
     missing: dict[str, list[str]] = field(default_factory=dict)
 
 
@@ -192,11 +194,14 @@ class _Store:
         limit = self._limits.max_texture
         if limit is None or not (asset.kind == "image" or asset.suffix == ".glb"):
             return content, None
-        from .textures import shrink_glb_images, shrink_image
+        from .textures import explain_unshrunk, shrink_glb_images, shrink_image
 
         data = content if isinstance(content, bytes) else content.read_bytes()
         small = (shrink_image if asset.kind == "image" else shrink_glb_images)(data, limit)
         if small is None:
+            why = explain_unshrunk(data, limit) if asset.kind == "image" else ""
+            if why:
+                self.stored.large_images[asset] = why
             return content, None
         return small.data, Reduction(len(data), pixels=(small.before, small.after))
 

@@ -63,6 +63,22 @@ def shrink_image(data: bytes, limit: int) -> Shrunk | None:
     return Shrunk(stream.getvalue(), before, after)
 
 
+def explain_unshrunk(data: bytes, limit: int) -> str:
+    """Return why an image that was not scaled down is larger than a limit; empty if it is not.
+
+    Args:
+        data: An image file.
+        limit: Largest width and height [pixels].
+    """
+    try:
+        image = open_image(data)
+    except MeshError as error:
+        return error.message
+    if max(image.size) <= limit:
+        return ""
+    return f"{image.width} × {image.height} pixels of a {image.format} cannot be scaled down"
+
+
 def shrink_glb_images(data: bytes, limit: int) -> Shrunk | None:
     """Scale the images inside a GLB file down; everything else in it stays as it is.
 

@@ -308,5 +308,5 @@ def _report_defects(console: Console, path: str, defects: Sequence[Defect], seco
             click.echo(defect)
     count = sum(not defect.is_of_source for defect in defects)
     verdict = format_count(count, "defect") if count else "complete"
-    time = f" (checked in {seconds:.0f} s)" if seconds >= _LONG else ""
+    time = f" (checked in {seconds:.1f} s)" if seconds >= _LONG or console.verbosity > 0 else ""
     console.print_note(f"{path}: {verdict}{time}")

@@ -11,7 +11,7 @@ from typing import Any
 from ..control_characters import escape_controls
 from ..info.counts import Counts, Named
 from ..info.size import Measured
-from ..model.elements import Robot
+from ..model.elements import Robot, UnknownShape
 from .counted import format_count
 from .findings import Painter
 from .json_text import format_json
@@ -62,7 +62,8 @@ def _list_rows(robot: Robot, counts: Counts, measured: Measured) -> Iterator[tup
     without = f"; {format_count(counts.massless, 'link')} without" if counts.massless else ""
     yield "mass", f"{counts.mass:.6g} kg{without}"
     yield "size at zero pose", _format_size(counts, measured)
-    yield "meshes", _format_meshes(measured)
+    unknown = [g for _, shape in robot.shapes if isinstance(g := shape.geometry, UnknownShape)]
+    yield "meshes", _format_meshes(measured, sum(shape.tag == "mesh" for shape in unknown))
     for mesh in measured.meshes:
         if mesh.reason:
             yield "meshes", f"not read: {escape_controls(mesh.uri)}: {escape_controls(mesh.reason)}"
@@ -88,12 +89,16 @@ def _format_size(counts: Counts, measured: Measured) -> str:
     return f"{size} m along the root's x, y, z{lowest}{lacks}"
 
 
-def _format_meshes(measured: Measured) -> str:
+def _format_meshes(measured: Measured, without: int) -> str:
+    """Format the mesh files, and the number of shapes whose mesh has no file."""
+    rest = f"{format_count(without, 'shape')} with a mesh that has no file" if without else ""
     if not measured.meshes:
-        return "none"
+        return rest or "none"
     files = format_count(len(measured.meshes), "file")
     shown, touched = measured.count_triangles("visuals"), measured.count_triangles("collisions")
-    return f"{files}; {shown:,} triangles in visuals, {touched:,} in collisions"
+    return f"{files}; {shown:,} triangles in visuals, {touched:,} in collisions" + (
+        f"; {rest}" if rest else ""
+    )
 
 
 def _format_named(things: Iterable[Named]) -> Iterator[str]:

@@ -121,7 +121,7 @@ def _read_mesh(context: Context, row: Row, written: Written) -> tuple[Geometry, 
     mesh = context.list_rows("mesh")[row["dataid"]]
     at = read_pose(row) @ read_pose(mesh).invert()
     if not mesh["file"]:
-        text = "meshes without a file are not read"
+        text = "meshes without a file are compared by a digest, and not exported"
         context.losses.add("mesh", text, mesh["name"], context.get_place(mesh).place)
         return UnknownShape(written, "mesh", mesh["content"]), at
     x, y, z = mesh["scale"]
