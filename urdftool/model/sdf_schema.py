@@ -82,6 +82,11 @@ def get_children(tag: str, *, newest: bool = False) -> frozenset[str] | None:
     )
 
 
+def get_value_type(parent: str, tag: str) -> str:
+    """Return the type of the value of an element; empty for none."""
+    return _describe(parent, tag).kind
+
+
 def find_requirement(parent: str, element: Element) -> Requirement | None:
     """Return what the content of an element has to be; None if it is valid or not known.
 
