@@ -1,4 +1,4 @@
-"""Values of a URDF that are no numbers, or are missing, and elements that are there twice.
+"""Values of a URDF that cannot be read or are missing, and elements that are there twice.
 
 Readers disagree about them: urdfdom drops the element or the robot, PyBullet reads the number at
 the beginning of a text, MuJoCo rejects the file. So two files are equal in them only if they have

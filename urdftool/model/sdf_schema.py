@@ -51,7 +51,7 @@ class Requirement(NamedTuple):
 
 
 class _Value(NamedTuple):
-    """What the schema says of a value: type, bounds, whether it may not be empty, and is old."""
+    """The schema of a value: type, bounds, whether it may not be empty, and is old."""
 
     kind: str
     bounds: str
