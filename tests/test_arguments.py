@@ -106,6 +106,7 @@ def test_every_option_is_checked():
         ("Mapping[str, str | Path] | None", [{}, None], "which is not a dict of values by name"),
         ("Iterable[str] | None", [[], (), {"a"}, None], "which is not a list"),
         ("float | None", [1, 0.5, None], "which is not a finite number"),
+        ("Vector", [(0, 0.5, 1), [1, 2, 3]], "which is not three finite numbers"),
     ],
 )
 def test_kinds(annotation, allowed, message):
@@ -114,6 +115,13 @@ def test_kinds(annotation, allowed, message):
     with pytest.raises(ConfigError, match=message):
         require_kind("x", object(), annotation)
     require_kind("x", object(), f"Style | {annotation}")
+
+
+@pytest.mark.parametrize("bad", [float("nan"), float("inf"), "0.5", True])
+def test_numbers_are_finite(bad):
+    for annotation, value in (("float", bad), ("Vector", (0, 0, bad)), ("Vector", (0, 0))):
+        with pytest.raises(ConfigError, match="finite number"):
+            require_kind("x", value, annotation)
 
 
 @pytest.mark.parametrize("name", ["pose", "payloads", "fixed_base", "seed", "sweep", "start_rpy"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import reprlib
 from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
@@ -28,19 +29,27 @@ def _is_number(value: object) -> bool:
     return isinstance(value, Real) and not isinstance(value, bool)
 
 
+def _is_finite(value: object) -> bool:
+    return _is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
+
+
+def _is_vector(value: object) -> bool:
+    return _is_list(value) and len(found := [*value]) == 3 and all(map(_is_finite, found))  # type: ignore[misc]
+
+
 _KINDS: Mapping[str, tuple[Callable[[Any], bool], str]] = {
     "None": (lambda value: value is None, "None"),
     "bool": (lambda value: isinstance(value, bool), "True or False"),
     "str": (lambda value: isinstance(value, str), "text"),
     "Path": (lambda value: isinstance(value, PathLike), "a path"),
     "int": (lambda value: isinstance(value, Integral) and _is_number(value), "a whole number"),
-    "float": (_is_number, "a finite number"),
+    "float": (_is_finite, "a finite number"),
     "Mapping": (lambda value: isinstance(value, Mapping), "a dict of values by name"),
     "dict": (lambda value: isinstance(value, Mapping), "a dict of values by name"),
     "Iterable": (_is_list, "a list"),
     "Sequence": (_is_list, "a list"),
     "Paths": (_is_list, "a list"),
-    "Vector": (_is_list, "three numbers"),
+    "Vector": (_is_vector, "three finite numbers"),
     "tuple": (_is_list, "a list"),
     "Robot": (lambda value: _is_a(value, "Robot"), "a robot of urdftool.load"),
     "Link": (lambda value: _is_a(value, "Link"), "a link of a robot of urdftool.load"),

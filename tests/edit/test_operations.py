@@ -316,6 +316,12 @@ BAD = {
     "no link": (lambda r: r.change_root("tipp"), "link 'tipp' does not exist"),
     "no joint": (lambda r: r.change_zero({"elbow": 1}), "joint 'elbow' does not exist"),
     "far": (lambda r: r.change_zero({"shoulder": 1e17}), "a zero at 1e+17 is too far for limits"),
+    "nan": (lambda r: r.change_zero({"shoulder": float("nan")}), "'shoulder' is nan, which is not"),
+    "text": (lambda r: r.change_zero({"shoulder": "0.5"}), "'shoulder' is '0.5', which is not a"),
+    "two": (
+        lambda r: r.attach(r, to="tip", xyz=(0, 0)),
+        "xyz is (0, 0), which is not three finite",
+    ),
     "no position": (lambda r: r.reverse_sign(["camera_mount"]), "'camera_mount' is fixed"),
     "root cut": (lambda r: r.cut("base"), "is the root"),
     "prefix": (lambda r: r.prefix("a b"), "cannot be a prefix"),

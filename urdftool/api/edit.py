@@ -11,7 +11,7 @@ from ..arguments import check_arguments
 from ..edit.draft import Draft, open_draft
 from ..edit.finish import Edited, finish, is_xacro_name
 from ..model.elements import Robot, Vector
-from ..suggestions import require_word
+from ..suggestions import require_number, require_word
 
 if TYPE_CHECKING:
     from ..edit.attach import Mount
@@ -244,11 +244,14 @@ def change_zero(
         output: As for :func:`attach`.
 
     Raises:
+        ConfigError: A position is not a finite number.
         ModelError: A joint does not exist, or does not have one position.
     """
     from ..edit.change import Change
     from ..edit.positions import change_positions
 
+    for name, value in positions.items():
+        require_number(f"position of joint '{name}'", value)
     changes = {name: Change(1.0, -value) for name, value in positions.items()}
     return _run(robot, lambda draft: change_positions(draft, changes), files, output)
 
