@@ -236,10 +236,18 @@ def test_one_step_that_does_not_end_is_ended(path, monkeypatch):
 
 
 @FORKS
-def test_memory_is_limited_by_the_system(path, monkeypatch):
+@pytest.mark.parametrize(
+    "text",
+    [
+        '\n<link name="${[[x] * 99999 for x in python.range(999)]}"/>',
+        '<xacro:property name="q" value="${[[x] * 99999 for x in python.range(999)]}"/>'
+        '\n<link name="a${q}"/>',  # a property is evaluated where it is used
+    ],
+)
+def test_memory_is_limited_by_the_system(path, monkeypatch, text):
     monkeypatch.setattr(limits, "MEMORY", 64 << 20)
-    path.write_text(XACRO.format('\n<link name="${[[x] * 99999 for x in python.range(999)]}"/>'))
-    with pytest.raises(XacroError, match="memory") as caught:
+    path.write_text(XACRO.format(text))
+    with pytest.raises(XacroError, match="too much memory") as caught:
         expand(path)
     assert caught.value.line == 2
 

@@ -287,7 +287,7 @@ def _explain_syntax(failure: Failure) -> Explanation | None:
             "non-boolean-conditional",
             f"the condition {value} is not a boolean; use true, false, 1, 0 or ${{…}}",
         )
-    if isinstance(getattr(error, "exc", None), MemoryError):
+    if any(isinstance(cause, MemoryError) for cause in list_causes(error)):
         return Explanation(
             "endless-expansion",
             f"the expansion requires too much memory{_format_expression(failed_text)}",
