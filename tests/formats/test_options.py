@@ -113,7 +113,7 @@ def test_python_refuses_other_values(name, choices, message):
     [
         (("sdf", "--sdf-version", "1.7"), "'gz' does not read SDF 1.7; it reads 1.9"),
         (("sdf", "--mesh-dir", "../x"), "not a folder relative to the model, such as meshes"),
-        (("mjcf", "--armature", "nan"), "not a finite number of at least 0"),
+        (("mjcf", "--armature", "nan"), "'nan' is not a finite number"),
         (("mjcf", "--base", "flying"), "'flying' is not one of 'auto', 'fixed', 'free'"),
     ],
 )
