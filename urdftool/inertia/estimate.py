@@ -223,7 +223,7 @@ def _finish(
     again = find_edges(unique) if len(unique) < len(faces) else None
     if again is None or not again.cycle:
         return _remove_overlap(points[faces], moments, notes)
-    notes = [*notes, _remark_duplicates(len(faces) - len(unique))]
+    notes = [*notes, _make_duplicates_remark(len(faces) - len(unique))]
     return _finish(points, unique, again, compute_solid_moments(points, unique), notes)
 
 
@@ -234,7 +234,7 @@ def _is_covered_twice(corners: Array) -> bool:
     return bool((np.abs(compute_crossing_numbers(points, corners)) > 1.5).any())
 
 
-def _remark_duplicates(count: int) -> Diagnostic:
+def _make_duplicates_remark(count: int) -> Diagnostic:
     message = f"Duplicate faces, ignored: {count}."
     return make_remark("duplicate-faces", message, count=count)
 
@@ -311,7 +311,7 @@ def _estimate_open(points: Points, faces: Faces) -> _Solid:
     notes: list[Diagnostic] = []
     unique = drop_duplicates(faces)
     if len(unique) < len(faces):
-        notes.append(_remark_duplicates(len(faces) - len(unique)))
+        notes.append(_make_duplicates_remark(len(faces) - len(unique)))
     wound, turned = orient(points, unique)
     if turned:
         message = f"Faces reversed to agree with their neighbors: {turned}."

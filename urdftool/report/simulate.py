@@ -128,7 +128,7 @@ def describe_holding(verdict: Verdict) -> str:
 
 
 def _describe_tipping(verdict: Verdict) -> str:
-    """Say which tilt tips a robot over on level ground, if it is small."""
+    """Describe which tilt tips a robot over on level ground, if it is small."""
     rest, run = verdict.rest, verdict.run
     if rest.margin is None or rest.center is None or rest.margin < 0 or run.settings.slope:
         return ""

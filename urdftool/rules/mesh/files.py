@@ -22,7 +22,7 @@ from ..rule import ERROR, SAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..words import find_nearest
 from .changes import change_uses
 from .dropped import is_dropped
-from .found_by_mujoco import pop_found_by_mujoco, report_found_by_mujoco, report_lost
+from .found_by_mujoco import report_found_by_mujoco, report_lost, take_found_by_mujoco
 from .mesh_uses import MeshUse, find_actual_case, get_mesh_uses
 from .uris import find_malformation
 
@@ -78,7 +78,7 @@ def mesh_not_found(
         ):
             continue
         missing.setdefault(Path(os.path.normpath(use.path)), []).append(use)
-    found = pop_found_by_mujoco(missing, robot, description)
+    found = take_found_by_mujoco(missing, robot, description)
     if found:
         yield report_found_by_mujoco(robot, found, _select_effects([], found))
     folders: dict[Path, list[Path]] = {}

@@ -35,7 +35,7 @@ def report_lost(lost: list[MeshUse], robot: Robot, description: Description) -> 
     )
 
 
-def pop_found_by_mujoco(
+def take_found_by_mujoco(
     missing: dict[Path, list[MeshUse]], robot: Robot, description: Description
 ) -> list[MeshUse]:
     """Remove the missing files that MuJoCo finds in its folder of meshes, and return their uses."""

@@ -179,7 +179,7 @@ class Stillness:
             return None
         values = np.array([self._compare(*sample[1:]) for sample in self.seen])
         quiet = np.abs(values).max(axis=0, initial=0.0) < self.bounds
-        if not quiet.all() or not (self._extrapolate(values) < self.bounds).all():
+        if not quiet.all() or not (self._estimate_moves(values) < self.bounds).all():
             return None
         return self.seen[0][0]
 
@@ -193,7 +193,7 @@ class Stillness:
         turned *= np.sign(real * w - np.einsum("ij,ij->i", one, xyz)[:, None])
         return np.concatenate([positions - joints, moved.ravel(), turned.ravel()])
 
-    def _extrapolate(self, values: Array) -> Array:
+    def _estimate_moves(self, values: Array) -> Array:
         """Estimate how far each value would move from here within the horizon.
 
         The rate changes in each half of a window by the same factor, but does not grow. Values
