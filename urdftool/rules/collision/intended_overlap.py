@@ -128,12 +128,17 @@ def find_centered_joints(robot: Robot, pairs: Iterable[tuple[Link, Link, float]]
 
 
 def find_disabled_pairs(robot: Robot, description: Description) -> set[frozenset[str]]:
-    """Find the pairs of links that an SRDF next to the description disables, kept for the robot."""
+    """Find the pairs of links that an SRDF next to the description disables, kept for the robot.
+
+    Without one, those in a folder ``srdf`` next to that of the description count.
+    """
     from ...model.semantic import read_semantic
-    from ..moveit.semantic import get_srdf_documents
+    from ..moveit.semantic import get_documents_of_folder, get_srdf_documents
 
     def read() -> set[frozenset[str]]:
-        contents = [read_semantic(one.root) for one in get_srdf_documents(robot, description)]
+        documents = get_srdf_documents(robot, description)
+        documents = documents or get_documents_of_folder(robot, description)
+        contents = [read_semantic(one.root) for one in documents]
         return {pair.links for content in contents for pair in content.disabled}
 
     return robot.memo.get("disabled pairs of the SRDF", read)

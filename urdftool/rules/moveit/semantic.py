@@ -11,6 +11,7 @@ from ...model.semantic import read_semantic
 from ...source.description import Description
 from ...source.document import Document, Element, parse, read_file
 from ...source.packages import shorten_path
+from ...workspace import Workspace
 from ..fix import (
     FixContext,
     Proposal,
@@ -46,12 +47,35 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
         others = {other.name.split(".")[0] for other in described}
         files = [file for file in files if file.name.split(".")[0] not in others]
     for file in named or files:
-        try:
-            document = parse(read_file(shorten_path(file), workspace))
-        except SourceError:
-            continue
-        if document.root.tag == "robot" and (named or document.root.get("name") == robot.name):
+        document = _parse(file, workspace)
+        if document is not None and (named or document.root.get("name") == robot.name):
             yield document
+
+
+def get_documents_of_folder(robot: Robot, description: Description) -> list[Document]:
+    """Get the SRDF files in a folder ``srdf`` next to that of a description, with the robot's name.
+
+    They say which contacts are meant; they may be for another description of the robot, so no rule
+    checks them.
+    """
+    if description.path == "-":
+        return []
+    folder = Path(description.path).absolute().parent.parent / "srdf"
+    return [
+        document
+        for file in description.workspace.list_matches(folder, "*.srdf")
+        if (document := _parse(file, description.workspace)) is not None
+        and document.root.get("name") == robot.name
+    ]
+
+
+def _parse(file: Path, workspace: Workspace) -> Document | None:
+    """Parse an SRDF file; None if it is none."""
+    try:
+        document = parse(read_file(shorten_path(file), workspace))
+    except SourceError:
+        return None
+    return document if document.root.tag == "robot" else None
 
 
 def find_references(root: Element, kind: str) -> Iterator[tuple[Element, str, bool]]:

@@ -197,6 +197,8 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             continue
         if element.tag == "origin" and _moves_nothing(element):
             continue
+        if element.tag == "gravity" and number(element.text.strip()) == 1:
+            continue  # it acts anyway
         if parent.tag == "geometry" and not _is_misplaced(element, parent):
             continue
         word = suggest_word(element.tag, VOCABULARY[parent.tag].children)
