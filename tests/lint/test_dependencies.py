@@ -97,6 +97,7 @@ OTHERS = {
     *("lint/changes.py", "lint/launches.py", "lint/robot_search.py"),
     *("lint/settings.py", "lint/skipped.py", "lint/stale.py", "lint/variants.py", "lint/watch.py"),
     "model/files.py",
+    "model/sdf_schema.py",
 }
 # Those that open what `Workspace.materialize` gave.
 LOCAL = {"rules/file_rewrites.py", "rules/mesh/scale.py", "rules/mesh/files.py"}
