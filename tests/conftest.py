@@ -147,6 +147,13 @@ def cache_folders(tmp_path_factory):
     return make_folders()
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _forks_have_mujoco():
+    """Import MuJoCo once, and not in each of the forks that read an MJCF."""
+    if extras.is_installed("mujoco"):
+        import mujoco  # noqa: F401
+
+
 @pytest.fixture(autouse=True)
 def _fresh(monkeypatch, cache_folders, request, programs):
     """Nothing that was found in one test is known in the next; no ROS of the machine is seen.
@@ -215,11 +222,12 @@ def stages_are_read_here(monkeypatch):
     """
     from urdftool.formats.usd import read
 
-    def call(function, *arguments, limits, prepare):
+    def call(function, *arguments, limits, prepare, threaded):
         # not prepared: a limit of OpenUSD's threads that is set when it has some makes one of
         # them call sched_yield until the process ends
         assert limits.memory
         assert prepare
+        assert threaded
         return function(*arguments)
 
     monkeypatch.setattr(read, "call_with_limits", call)

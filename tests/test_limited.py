@@ -13,6 +13,7 @@ from urdftool.limited import LimitExceeded, Limits, call_with_limits, open_no_fi
 from urdftool.source.location import Place, SourceFile
 
 LIMITS = Limits(time=60.0, processor=1.0, memory=200 << 20)
+CAN_FORK = limited._can_fork
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="other systems have fewer limits")
 
 
@@ -21,7 +22,7 @@ def kind(request, monkeypatch):
     """Call in a fork, if the system has it, and in a new interpreter."""
     if request.param == "fork" and sys.platform != "linux":
         pytest.skip("no fork")
-    monkeypatch.setattr(limited, "_can_fork", lambda: request.param == "fork")
+    monkeypatch.setattr(limited, "_can_fork", lambda _: request.param == "fork")
 
 
 def double(number):
@@ -126,3 +127,11 @@ def test_what_a_library_prints_is_not_printed(capfd):
 @LINUX
 def test_no_file_can_be_opened():
     assert call_with_limits(read_twice, 0, limits=LIMITS) == ["none", "read"]
+
+
+def test_no_fork_uses_a_library_whose_threads_it_lacks(monkeypatch):
+    monkeypatch.setattr(limited, "can_fork", lambda: True)
+    monkeypatch.setitem(sys.modules, "threaded", sys)
+    assert CAN_FORK("")
+    assert CAN_FORK("absent")
+    assert not CAN_FORK("threaded")

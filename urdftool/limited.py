@@ -56,6 +56,7 @@ def call_with_limits(
     *arguments: Any,
     limits: Limits,
     prepare: Callable[[], None] | None = None,
+    threaded: str = "",
 ) -> T:
     """Call a function in a process with limits, and return its result.
 
@@ -68,6 +69,8 @@ def call_with_limits(
         limits: The limits.
         prepare: Function of a module that imports libraries before the limit of memory is set; a
             worker of :mod:`urdftool.parallel` calls it once for all its forks.
+        threaded: Library that the function uses and that keeps threads, which a fork lacks if
+            this process has loaded it.
 
     Raises:
         LimitExceeded: The call exceeded a limit.
@@ -76,7 +79,7 @@ def call_with_limits(
     """
     everything = (function, limits, prepare, *arguments)
     try:
-        if _can_fork():
+        if _can_fork(threaded):
             if prepare is not None and _is_worker():
                 prepare()
             with _ForkedProcess(everything) as forked:
@@ -167,14 +170,9 @@ def open_no_files() -> Iterator[None]:
         resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
 
 
-_THREADED = ("pxr",)
-"""Libraries that keep threads, which a fork of the process lacks."""
-
-
-def _can_fork() -> bool:
-    """Tell whether a fork of this process can use the libraries that this process has loaded."""
-    loaded = any(library in sys.modules for library in _THREADED)
-    return can_fork() and (_is_worker() or not loaded)
+def _can_fork(threaded: str) -> bool:
+    """Tell whether a fork of this process can use a library that keeps threads; "" is none."""
+    return can_fork() and (_is_worker() or threaded not in sys.modules)
 
 
 def _is_worker() -> bool:

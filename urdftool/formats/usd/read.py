@@ -68,6 +68,7 @@ def read(
             *(str(path), located, name, folder),
             limits=choose_limits(LIMITS, opened.workspace),
             prepare=_import_library,
+            threaded="pxr",
         )
     if opened.workspace.dependencies is not None:
         opened.workspace.dependencies.include(read_files)
