@@ -165,7 +165,10 @@ def test_every_command_says_it(urdftool, write, command):
     write("one.sdf", make_sdf(GRAVITY.format("down")))
     result = urdftool(*command.split())
     if command.startswith("lint"):
-        assert "one.sdf:3:1: error: <gravity> of <world> is '0 0 down', not 3 numbers" in result.out
+        assert (
+            "one.sdf:3:1: error: world 'w': gravity is '0 0 down', not three finite numbers"
+            in result.out
+        )
         return
     line = "one.sdf:3:1: warning: world 'w': gravity is '0 0 down', not three finite numbers; it"
     assert line in result.err

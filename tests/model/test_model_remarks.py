@@ -46,7 +46,8 @@ def test_the_value_that_counts_is_that_of_the_element(write, values, counts):
     block = '<gazebo reference="base"><turnGravityOff>{}</turnGravityOff></gazebo>'
     robot = api.load(write("r.urdf", make("".join(map(block.format, values)))))
     (remark,) = list_remarks(robot)
-    assert f"turnGravityOff is set several times; {counts} counts" in remark.message
+    text = f"turnGravityOff is set several times ({', '.join(values)}); {counts} counts"
+    assert text in remark.message
     assert robot.link["base"].settings["gravity"].content is (counts == "false")
 
 
@@ -63,3 +64,12 @@ def test_every_command_says_all(urdftool, write, command):
     words = ("'rough'", "set several times", "'nolink'", "'nobody' is not defined")
     assert [word for word in words if f"{word}" not in said] == []
     assert said.count("'rough'") == 1
+
+
+@pytest.mark.parametrize("code", CASES)
+def test_lint_says_it_in_the_same_words_at_the_same_place(write, code):
+    path = write("r.urdf", make(CASES[code]))
+    (remark,) = list_remarks(api.load(path))
+    fact = remark.message.partition("; ")[0]
+    places = [f.location.start for f in api.check(path) if f.message.startswith(fact)]
+    assert places == [remark.place.start]

@@ -15,28 +15,28 @@ from .elements import Link, Material, Robot, Visual
 from .gazebo_colors import COLORS, Color
 from .materials import resolve_material
 from .read_settings import read_sdf_settings
-from .settings import Rejected, Setting, Settings, Value, get_text
+from .settings import Rejected, Setting, Settings, Value, add_kinds, get_text
 
 _BLACK = (0.0, 0.0, 0.0, 1.0)
 _DARK = (0.0, 0.0, 0.0, 0.0)
 _METAL = "material/pbr/metal/"
 
-APPEARANCE = (
-    Setting("ambient", "color", "", "material/ambient", _BLACK),
-    Setting("diffuse", "color", "", "material/diffuse", _BLACK),
-    Setting("specular", "color", "", "material/specular", _BLACK),
-    Setting("emissive", "color", "", "material/emissive", _BLACK),
-    Setting("shininess", "number", "", "material/shininess", 0.0),
-    Setting("lighting", "flag", "", "material/lighting", True),
-    Setting("double_sided", "flag", "", "material/double_sided", False),
-    Setting("render_order", "number", "", "material/render_order", 0.0),
-    Setting("metalness", "number", "", _METAL + "metalness", 0.5),
-    Setting("roughness", "number", "", _METAL + "roughness", 0.5),
-    Setting("transparency", "number", "", "transparency", 0.0),
-    Setting("cast_shadows", "flag", "", "cast_shadows", True),
-    Setting("visibility_flags", "count", "", "visibility_flags", 4294967295.0),
-    Setting("layer", "number", "", "meta/layer", 0.0),
-)
+APPEARANCE = add_kinds("visual", (
+    Setting("ambient", "", "material/ambient", _BLACK),
+    Setting("diffuse", "", "material/diffuse", _BLACK),
+    Setting("specular", "", "material/specular", _BLACK),
+    Setting("emissive", "", "material/emissive", _BLACK),
+    Setting("shininess", "", "material/shininess", 0.0, kind="number"),
+    Setting("lighting", "", "material/lighting", True),
+    Setting("double_sided", "", "material/double_sided", False),
+    Setting("render_order", "", "material/render_order", 0.0, kind="number"),
+    Setting("metalness", "", _METAL + "metalness", 0.5, kind="number"),
+    Setting("roughness", "", _METAL + "roughness", 0.5, kind="number"),
+    Setting("transparency", "", "transparency", 0.0),
+    Setting("cast_shadows", "", "cast_shadows", True),
+    Setting("visibility_flags", "", "visibility_flags", 4294967295.0),
+    Setting("layer", "", "meta/layer", 0.0, kind="number"),
+))  # fmt: skip
 """Values of a visual."""
 
 _OF_MATERIALS = tuple(row for row in APPEARANCE if row.path.startswith("material/"))

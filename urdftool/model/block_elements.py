@@ -61,3 +61,24 @@ def find_references_at(robot: Robot, place: Place) -> Iterator[str]:
         same = element.place.path == place.path
         if same and element.start <= place.start < element.end:
             yield block.reference or ""
+
+
+_OWNERS = ("sensor", "link", "joint", "world")
+
+
+def find_owner(robot: Robot, element: Element) -> tuple[str, str]:
+    """Return kind and name of the part that an element of SDF, in a file or a block, belongs to."""
+    above: Element | None = element
+    while above is not None:
+        name = above.get("name") or ""
+        if above.tag in _OWNERS and name:
+            return above.tag, name
+        if above.tag == "gazebo":
+            reference = above.get("reference") or ""
+            if not reference:
+                return "robot", robot.name
+            if (reference in robot.link) is (reference in robot.joint):
+                return "joint" if _is_of_joint(element) else "link", reference
+            return "link" if reference in robot.link else "joint", reference
+        above = above.parent
+    return "robot", robot.name

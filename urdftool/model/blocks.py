@@ -61,10 +61,10 @@ def add_blocks(robot: Robot) -> None:
 def _add_sensor(robot: Robot, block: GazeboExtension, element: Element) -> None:
     name, reference = element.get("name") or "", block.reference or ""
     if reference not in robot.link and reference not in robot.joint:
-        at = block.element if block.reference else element
-        robot.rejected_settings.append(
-            Rejected(at, "sensor", name, "gazebo reference", reference, _PART)
-        )
+        if not reference:  # else the block is reported
+            robot.rejected_settings.append(
+                Rejected(element, "sensor", name, "gazebo reference", reference, _PART)
+            )
         return
     on_link = reference in robot.link
     pose, frame = read_sensor_pose(element)
@@ -126,8 +126,9 @@ def _add_light(robot: Robot, link: str, element: Element) -> None:
     if link not in robot.link:
         required = "the name of a link of the robot"
         name = element.get("name") or ""
-        rejected = Rejected(element, "light", name, "gazebo reference", link, required)
-        robot.rejected_settings.append(rejected)
+        if not link or link in robot.joint:  # else the block is reported
+            rejected = Rejected(element, "light", name, "gazebo reference", link, required)
+            robot.rejected_settings.append(rejected)
         return
     kind = element.get("type") or "point"
     pose, _ = read_sensor_pose(element)

@@ -16,12 +16,11 @@ from .settings import (
     OF_LINKS,
     OF_ROBOT,
     SURFACE,
-    Content,
     Rejected,
     Setting,
     Settings,
     Value,
-    describe_required,
+    find_required,
     get_text,
     parse,
 )
@@ -47,10 +46,9 @@ class _Reading:
 
     def put(self, row: Setting, element: Element, *, negated: bool = False) -> None:
         text = get_text(element)
-        content = parse(row.kind, text)
-        if content is None or (row.lowest is not None and not _is_within(row, content)):
+        content, required = parse(row.kind, text), find_required(row, text)
+        if content is None or required:
             if all(one.provenance is not element for one in self.rejected):
-                required = describe_required(row)
                 self.rejected.append(
                     Rejected(element, self.kind, self.name, element.tag, text, required)
                 )
@@ -61,10 +59,6 @@ class _Reading:
         if before is not None and id(before) not in self.weak and before.content != content:
             earlier = (*before.earlier, before)
         self.values[row.name] = Value(element, content, earlier)
-
-
-def _is_within(row: Setting, content: Content) -> bool:
-    return row.lowest is None or isinstance(content, tuple | str) or content >= row.lowest
 
 
 def list_settings(robot: Robot) -> Iterator[tuple[str, str, Sequence[Setting], Settings]]:

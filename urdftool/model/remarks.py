@@ -10,7 +10,7 @@ from .block_elements import list_dangling_blocks
 from .elements import Robot
 from .materials import resolve_material
 from .numbers import describe_content
-from .settings import Settings
+from .settings import Settings, Value
 
 
 class Remark(NamedTuple):
@@ -36,27 +36,44 @@ def list_remarks(robot: Robot) -> Iterator[Remark]:
     """Yield what a robot does not hold as it is written; for MJCF and USD none."""
     for one in robot.rejected_settings:
         yield Remark("rejected-setting", one.place, one.kind, one.name, one.message)
-    rejected = {one.place for one in robot.rejected_settings}
     for name, block in list_dangling_blocks(robot):
-        if block.place not in rejected:
-            text = f"<gazebo> refers to '{name}', not to a link or joint; it is ignored"
-            yield Remark("dangling-block", block.place, "gazebo", name, text)
+        place = block.locate_attribute("reference")
+        yield Remark("dangling-block", place, "gazebo", name, describe_dangling(robot, name))
     yield from _list_repeated(robot)
     yield from _list_undefined(robot)
 
 
 def _list_repeated(robot: Robot) -> Iterator[Remark]:
-    """Yield the settings that blocks give several values, once for each element that counts."""
+    """Yield the settings that blocks give several values."""
+    for part, value in list_repeated_settings(robot):
+        yield Remark("repeated-setting", value.place, *part, describe_repeated(part, value))
+
+
+def list_repeated_settings(robot: Robot) -> Iterator[tuple[tuple[str, str], Value]]:
+    """Yield kind and name of a part with a setting that has several values, once an element."""
     known: set[Place] = set()
     for kind, name, settings in _list_settings(robot):
         for value in settings.values():
             if value.earlier and value.place not in known:
                 known.add(value.place)
-                text = f"{kind} '{name}': {value.tag} is set several times; "
-                shown = describe_content(value.written)
-                shown = f"{shown:g}" if isinstance(shown, float) else shown
-                text += f"{shown} counts, as in Gazebo"
-                yield Remark("repeated-setting", value.place, kind, name, text)
+                yield (kind, name), value
+
+
+def describe_dangling(robot: Robot, name: str) -> str:
+    """Describe a ``<gazebo>`` block whose reference is neither a link nor a joint."""
+    link = next((link.name for link, shape in robot.shapes if shape.name == name), None)
+    of = "" if link is None else f"; it is a shape of link '{link}'"
+    return f"<gazebo> refers to '{name}', not to a link or joint, and is ignored{of}"
+
+
+def describe_repeated(part: tuple[str, str], value: Value) -> str:
+    """Describe a setting that has several values: which, and which one counts."""
+    shown = [
+        f"{content:g}" if isinstance(content, float) else content
+        for content in (describe_content(one.written) for one in (*value.earlier, value))
+    ]
+    text = f"{part[0]} '{part[1]}': {value.tag} is set several times ({', '.join(shown)})"
+    return f"{text}; {shown[-1]} counts, as in Gazebo"
 
 
 def _list_settings(robot: Robot) -> Iterator[tuple[str, str, Settings]]:
@@ -77,5 +94,11 @@ def _list_undefined(robot: Robot) -> Iterator[Remark]:
                 continue
             known.add(own.name)
             if resolve_material(robot, own) is None:
-                text = f"material '{own.name}' is not defined; its visuals have no color"
-                yield Remark("undefined-material", own.place, "material", own.name, text)
+                place = own.locate_attribute("name")
+                text = f"{describe_undefined(own.name)}; it gives no color"
+                yield Remark("undefined-material", place, "material", own.name, text)
+
+
+def describe_undefined(material: str) -> str:
+    """Describe a material that a visual names and nothing defines."""
+    return f"material '{material}' is not defined"

@@ -34,6 +34,7 @@ _WORDS = {
 """Allowed words of elements, by parent tag and tag; libsdformat takes the default for others."""
 
 _LENGTHS = {"vector2d": 2, "vector2i": 2, "vector3": 3, "quaternion": 4}
+_COUNTS = {2: "two", 3: "three", 4: "four", 6: "six", 7: "seven"}
 _FLAGS = frozenset(("true", "false", "1", "0"))
 
 
@@ -41,7 +42,7 @@ class Requirement(NamedTuple):
     """What a value has to be, and is not.
 
     Attributes:
-        text: Such as ``a number``.
+        text: Such as ``a finite number``.
         effect: What libsdformat does: ``reject`` the file, read the ``beginning`` of the value, or
             take the ``default`` in its place.
     """
@@ -87,6 +88,23 @@ def get_value_type(parent: str, tag: str) -> str:
     return _describe(parent, tag).kind
 
 
+def get_bounds(parent: str, tag: str) -> tuple[float, float]:
+    """Return the smallest and largest value of an element; infinite for none."""
+    return _parse_bounds(_describe(parent, tag).bounds)
+
+
+def _parse_bounds(text: str) -> tuple[float, float]:
+    least, _, most = text.partition(":")
+    return (float(least), float(most)) if text else (-math.inf, math.inf)
+
+
+def describe_bounds(least: float, most: float) -> str:
+    """Describe bounds of a number, in words that follow it; empty without any."""
+    if math.isinf(most):
+        return "" if math.isinf(least) else f" of at least {least:g}"
+    return f" from {least:g} to {most:g}"
+
+
 def find_requirement(parent: str, element: Element) -> Requirement | None:
     """Return what the content of an element has to be; None if it is valid or not known.
 
@@ -105,7 +123,8 @@ def find_requirement(parent: str, element: Element) -> Requirement | None:
         return Requirement("a value") if value.is_needed else None
     if value.kind == "pose":
         count = 7 if element.get("rotation_format") == "quat_xyzw" else 6
-        return Requirement(f"{count} numbers") if parse_numbers(text, count) is None else None
+        needed = Requirement(f"{_COUNTS[count]} finite numbers")
+        return needed if parse_numbers(text, count) is None else None
     required = _find_requirement(value.kind, value.bounds, text)
     return required._replace(effect="default") if required and value.is_old else required
 
@@ -133,12 +152,14 @@ def _find_requirement(kind: str, bounds: str, text: str) -> Requirement | None:
     if kind == "bool":
         return None if text.lower() in _FLAGS else Requirement("true or false")
     if kind == "color":
-        return None if _is_color(text) else Requirement("3 or 4 numbers from 0 to 1")
+        return None if _is_color(text) else Requirement("three or four finite numbers from 0 to 1")
     if kind in _LENGTHS:
         count = _LENGTHS[kind]
         if parse_numbers(" ".join(words[:count]), count) is None:
-            return Requirement(f"{count} numbers")
-        return None if len(words) == count else Requirement(f"{count} numbers", "beginning")
+            return Requirement(f"{_COUNTS[count]} finite numbers")
+        if len(words) != count:
+            return Requirement(f"{_COUNTS[count]} finite numbers", "beginning")
+        return None
     if kind in ("double", "float", "int", "unsigned-int"):
         return _find_requirement_of_number(kind, bounds, text)
     return None
@@ -147,19 +168,15 @@ def _find_requirement(kind: str, bounds: str, text: str) -> Requirement | None:
 def _find_requirement_of_number(kind: str, bounds: str, text: str) -> Requirement | None:
     text = {"true": "1", "false": "0"}.get(text.lower(), text)  # as libsdformat does
     is_whole = kind.endswith("int")
-    what = "a whole number" if is_whole else "a number"
+    what = "a whole number" if is_whole else "a finite number"
     if not (_LEADING_WHOLE if is_whole else _LEADING).match(text):
         return Requirement(what)
     value = number(text)
     if value is None:
         is_infinite = text.lower().lstrip("+-") in ("inf", "infinity") and not is_whole
         return None if is_infinite else Requirement(what, "beginning")
-    least, most = map(float, bounds.split(":")) if bounds else (-math.inf, math.inf)
-    if least <= value <= most:
-        return None
-    if math.isinf(most):
-        return Requirement(f"{least:g} or more")
-    return Requirement(f"{least:g} to {most:g}")
+    least, most = _parse_bounds(bounds)
+    return None if least <= value <= most else Requirement(what + describe_bounds(least, most))
 
 
 def _is_color(text: str) -> bool:

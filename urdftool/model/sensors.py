@@ -23,7 +23,8 @@ from .settings import (
     Setting,
     Settings,
     Value,
-    describe_kind,
+    add_kinds,
+    find_required,
     get_number,
     get_text,
     parse,
@@ -78,34 +79,35 @@ KINDS = (
 
 _KIND_OF = {name: kind for kind in KINDS for name in (kind.type, *kind.others)}
 
-SETTINGS = (
-    Setting("rate", "number", "Hz", "update_rate", 0.0),
-    Setting("topic", "text", "", "topic", ""),
-    Setting("frame", "text", "", "gz_frame_id", ""),
-    Setting("always on", "flag", "", "always_on", False),
-    Setting("visualize", "flag", "", "visualize", False),
-    Setting("metrics", "flag", "", "enable_metrics", False),
-    Setting("field of view", "number", "rad", "camera/horizontal_fov", 1.047, mjcf="fovy"),
-    Setting("image width", "count", "pixels", "camera/image/width", 320.0, mjcf="resolution"),
-    Setting("image height", "count", "pixels", "camera/image/height", 240.0, mjcf="resolution"),
-    Setting("image format", "text", "", "camera/image/format", "R8G8B8"),
-    Setting("near", "number", "m", "camera/clip/near", 0.1),
-    Setting("far", "number", "m", "camera/clip/far", 100.0),
-    Setting("samples", "count", "", "lidar/scan/horizontal/samples", 640.0),
-    Setting("resolution", "number", "", "lidar/scan/horizontal/resolution", 1.0),
-    Setting("minimum angle", "number", "rad", "lidar/scan/horizontal/min_angle", 0.0),
-    Setting("maximum angle", "number", "rad", "lidar/scan/horizontal/max_angle", 0.0),
-    Setting("vertical samples", "count", "", "lidar/scan/vertical/samples", 1.0),
-    Setting("vertical resolution", "number", "", "lidar/scan/vertical/resolution", 1.0),
-    Setting("vertical minimum angle", "number", "rad", "lidar/scan/vertical/min_angle", 0.0),
-    Setting("vertical maximum angle", "number", "rad", "lidar/scan/vertical/max_angle", 0.0),
-    Setting("minimum range", "number", "m", "lidar/range/min", 0.0),
-    Setting("maximum range", "number", "m", "lidar/range/max", 0.0),
-    Setting("range resolution", "number", "m", "lidar/range/resolution", 0.0),
-    Setting("measured frame", "text", "", "force_torque/frame", "child"),
-    Setting("direction", "text", "", "force_torque/measure_direction", "child_to_parent"),
-    Setting("collision", "text", "", "contact/collision", ""),
-)
+SETTINGS = add_kinds("sensor", (
+    Setting("rate", "Hz", "update_rate", 0.0),
+    Setting("topic", "", "topic", ""),
+    Setting("frame", "", "gz_frame_id", "", kind="text"),
+    Setting("always on", "", "always_on", False),
+    Setting("visualize", "", "visualize", False),
+    Setting("metrics", "", "enable_metrics", False),
+    Setting("field of view", "rad", "camera/horizontal_fov", 1.047, mjcf="fovy"),
+    Setting("image width", "pixels", "camera/image/width", 320.0, mjcf="resolution"),
+    Setting("image height", "pixels", "camera/image/height", 240.0,
+            mjcf="resolution", kind="count"),
+    Setting("image format", "", "camera/image/format", "R8G8B8"),
+    Setting("near", "m", "camera/clip/near", 0.1),
+    Setting("far", "m", "camera/clip/far", 100.0),
+    Setting("samples", "", "lidar/scan/horizontal/samples", 640.0),
+    Setting("resolution", "", "lidar/scan/horizontal/resolution", 1.0),
+    Setting("minimum angle", "rad", "lidar/scan/horizontal/min_angle", 0.0),
+    Setting("maximum angle", "rad", "lidar/scan/horizontal/max_angle", 0.0),
+    Setting("vertical samples", "", "lidar/scan/vertical/samples", 1.0),
+    Setting("vertical resolution", "", "lidar/scan/vertical/resolution", 1.0),
+    Setting("vertical minimum angle", "rad", "lidar/scan/vertical/min_angle", 0.0),
+    Setting("vertical maximum angle", "rad", "lidar/scan/vertical/max_angle", 0.0),
+    Setting("minimum range", "m", "lidar/range/min", 0.0),
+    Setting("maximum range", "m", "lidar/range/max", 0.0),
+    Setting("range resolution", "m", "lidar/range/resolution", 0.0),
+    Setting("measured frame", "", "force_torque/frame", "child"),
+    Setting("direction", "", "force_torque/measure_direction", "child_to_parent"),
+    Setting("collision", "", "contact/collision", ""),
+))  # fmt: skip
 """Settings of sensors, by their path in SDF."""
 
 MAX_RAYS = 36
@@ -139,7 +141,7 @@ def get_sensor_row(name: str) -> Setting:
         return row
     head, _, tag = name.rpartition("/")
     default: Content = _ENDINGS.get(tag, "") if head.endswith("noise") else ""
-    return Setting(name, "number" if default == 0.0 else "text", "", name, default)
+    return Setting(name, "", name, default, kind="number" if default == 0.0 else "text")
 
 
 def read_sensor(
@@ -264,9 +266,8 @@ class _Reading:
     def put(self, path: str, element: Element, text: str) -> None:
         """Set a value, the first of several; a later one has a number in its name."""
         row = _ROWS.get(path) or get_sensor_row(path)
-        content = parse(row.kind, text)
-        if content is None:
-            required = describe_kind(row.kind)
+        content, required = parse(row.kind, text), find_required(row, text)
+        if content is None or required:
             self.rejected.append(
                 Rejected(element, "sensor", self.name, element.tag, text, required)
             )

@@ -12,16 +12,20 @@ element of SDF in a block, and both count before ``<contact>``. libsdformat 12.3
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..source.document import Element
 from .numbers import number, parse_numbers
 from .part import Part
+from .sdf_schema import describe_bounds, get_bounds, get_value_type
 
 Content = float | bool | tuple[float, ...] | str
+
+UNBOUNDED = (-math.inf, math.inf)
 
 
 class Setting(NamedTuple):
@@ -29,15 +33,15 @@ class Setting(NamedTuple):
 
     Attributes:
         name: Name in the model.
-        kind: ``number``, ``count`` (a whole number), ``vector`` (three numbers), ``list`` (several
-            numbers), ``color`` (red, green, blue, and alpha, 1 by default), ``flag`` or ``text``.
         unit: Unit of the value; empty for none.
         path: Path of the SDF element below the collision, link or joint.
         default: What SDF's specification says where it is not written.
         tags: Tags in ``<gazebo>`` that set it.
+        kind: ``number``, ``count`` (a whole number), ``vector`` (three numbers), ``list`` (several
+            numbers), ``color`` (red, green, blue, and alpha, 1 by default), ``flag`` or ``text``.
         opposite: Tag in ``<gazebo>`` that sets a flag to its opposite.
         contact: Child of Bullet's ``<contact>`` of a link that sets it.
-        lowest: Smallest value that readers accept; None for no bound.
+        bounds: Smallest and largest value that libsdformat accepts.
         range: Smallest and largest value that make sense, if readers take others, too.
         mjcf: What MJCF has instead; empty for nothing.
         usd: What USD has instead; empty for nothing.
@@ -46,127 +50,163 @@ class Setting(NamedTuple):
     """
 
     name: str
-    kind: str
     unit: str
     path: str
     default: Content
     tags: tuple[str, ...] = ()
+    kind: str = ""
     opposite: str = ""
     contact: str = ""
-    lowest: float | None = None
-    range: tuple[float, float] = (-float("inf"), float("inf"))
+    bounds: tuple[float, float] = UNBOUNDED
+    range: tuple[float, float] = UNBOUNDED
     mjcf: str = ""
     usd: str = ""
     also: str = ""
     note: str = ""
 
 
+_KINDS = {
+    "double": "number",
+    "float": "number",
+    "int": "count",
+    "unsigned-int": "count",
+    "bool": "flag",
+    "vector3": "vector",
+    "color": "color",
+    "string": "text",
+}
+"""Kinds of the types of SDFormat."""
+
+
+def add_kinds(holder: str, rows: Iterable[Setting]) -> tuple[Setting, ...]:
+    """Return rows with the kinds and bounds that SDF's schema gives their paths.
+
+    Args:
+        holder: Tag of the element that holds them; a row that has a kind keeps it.
+        rows: Rows of a table.
+    """
+    return tuple(row if row.kind else _add_kind(holder, row) for row in rows)
+
+
+def _add_kind(holder: str, row: Setting) -> Setting:
+    above, _, tag = f"{holder}/{row.path}".rpartition("/")
+    parent = above.rpartition("/")[2]
+    bounds = get_bounds(parent, tag)
+    return row._replace(kind=_KINDS[get_value_type(parent, tag)], bounds=bounds)
+
+
 _ODE = "surface/friction/ode/"
 _CONTACT = "surface/contact/ode/"
 _LIMIT = "physics/ode/limit/"
 _DAMPER = "physics/ode/cfm_damping"
-_POSITIVE, _PART = (0.0, float("inf")), (0.0, 1.0)
+_POSITIVE, _PART = (0.0, math.inf), (0.0, 1.0)
 
-SURFACE = (
-    Setting("friction", "number", "", _ODE + "mu", 1.0, ("mu1",), contact="lateral_friction",
-            lowest=0.0, mjcf="geom friction", usd="physics:dynamicFriction"),
-    Setting("second_friction", "number", "", _ODE + "mu2", 1.0, ("mu2",), lowest=0.0,
+SURFACE = add_kinds("collision", (
+    Setting("friction", "", _ODE + "mu", 1.0, ("mu1",), contact="lateral_friction",
+            mjcf="geom friction", usd="physics:dynamicFriction"),
+    Setting("second_friction", "", _ODE + "mu2", 1.0, ("mu2",),
             contact="lateral_friction", mjcf="geom friction", usd="physics:dynamicFriction"),
-    Setting("friction_direction", "vector", "", _ODE + "fdir1", (0.0, 0.0, 0.0), ("fdir1",),
+    Setting("friction_direction", "", _ODE + "fdir1", (0.0, 0.0, 0.0), ("fdir1",),
             note="in the frame of the collision"),
-    Setting("slip", "number", "", _ODE + "slip1", 0.0, range=_POSITIVE),
-    Setting("second_slip", "number", "", _ODE + "slip2", 0.0, range=_POSITIVE),
-    Setting("torsional_friction", "number", "", "surface/friction/torsional/coefficient", 1.0),
-    Setting("restitution", "number", "", "surface/bounce/restitution_coefficient", 0.0,
-            range=_PART, contact="restitution", usd="physics:restitution"),
-    Setting("bounce_velocity", "number", "m/s", "surface/bounce/threshold", 100000.0),
-    Setting("contact_stiffness", "number", "N/m", _CONTACT + "kp", 1e12, ("kp",),
+    Setting("slip", "", _ODE + "slip1", 0.0, range=_POSITIVE),
+    Setting("second_slip", "", _ODE + "slip2", 0.0, range=_POSITIVE),
+    Setting("torsional_friction", "", "surface/friction/torsional/coefficient", 1.0),
+    Setting("restitution", "", "surface/bounce/restitution_coefficient", 0.0,
+            contact="restitution", usd="physics:restitution"),
+    Setting("bounce_velocity", "m/s", "surface/bounce/threshold", 100000.0),
+    Setting("contact_stiffness", "N/m", _CONTACT + "kp", 1e12, ("kp",),
             range=_POSITIVE, contact="stiffness"),
-    Setting("contact_damping", "number", "N·s/m", _CONTACT + "kd", 1.0, ("kd",),
+    Setting("contact_damping", "N·s/m", _CONTACT + "kd", 1.0, ("kd",),
             range=_POSITIVE, contact="damping"),
-    Setting("correction_velocity", "number", "m/s", _CONTACT + "max_vel", 0.01, ("maxVel",)),
-    Setting("contact_depth", "number", "m", _CONTACT + "min_depth", 0.0, ("minDepth",)),
-    Setting("contact_cfm", "number", "", _CONTACT + "soft_cfm", 0.0, range=_POSITIVE),
-    Setting("contact_erp", "number", "", _CONTACT + "soft_erp", 0.2, range=_PART),
-    Setting("collide_bitmask", "count", "", "surface/contact/collide_bitmask", 65535.0),
-    Setting("category_bitmask", "count", "", "surface/contact/category_bitmask", 65535.0),
-    Setting("without_contact", "flag", "", "surface/contact/collide_without_contact", False),
-    Setting("bitmask_without_contact", "count", "",
+    Setting("correction_velocity", "m/s", _CONTACT + "max_vel", 0.01, ("maxVel",)),
+    Setting("contact_depth", "m", _CONTACT + "min_depth", 0.0, ("minDepth",)),
+    Setting("contact_cfm", "", _CONTACT + "soft_cfm", 0.0, range=_POSITIVE),
+    Setting("contact_erp", "", _CONTACT + "soft_erp", 0.2, range=_PART),
+    Setting("collide_bitmask", "", "surface/contact/collide_bitmask", 65535.0),
+    Setting("category_bitmask", "", "surface/contact/category_bitmask", 65535.0),
+    Setting("without_contact", "", "surface/contact/collide_without_contact", False),
+    Setting("bitmask_without_contact", "",
             "surface/contact/collide_without_contact_bitmask", 1.0),
-    Setting("max_contacts", "count", "", "max_contacts", 10.0, ("maxContacts",)),
-    Setting("laser_retro", "number", "", "laser_retro", 0.0, ("laserRetro",),
+    Setting("max_contacts", "", "max_contacts", 10.0, ("maxContacts",)),
+    Setting("laser_retro", "", "laser_retro", 0.0, ("laserRetro",),
             note="for gz in each visual too, where its lidar looks"),
-)  # fmt: skip
+))  # fmt: skip
 """Settings of a collision. A tag of its link in ``<gazebo>`` applies to each of its collisions."""
 
-OF_LINKS = (
-    Setting("gravity", "flag", "", "gravity", True, opposite="turnGravityOff",
+OF_LINKS = add_kinds("link", (
+    Setting("gravity", "", "gravity", True, opposite="turnGravityOff",
             mjcf="body gravcomp"),
-    Setting("self_collide", "flag", "", "self_collide", False, ("selfCollide",)),
-    Setting("linear_decay", "number", "", "velocity_decay/linear", 0.0, ("dampingFactor",),
+    Setting("self_collide", "", "self_collide", False, ("selfCollide",)),
+    Setting("linear_decay", "", "velocity_decay/linear", 0.0, ("dampingFactor",),
             range=_POSITIVE),
-    Setting("angular_decay", "number", "", "velocity_decay/angular", 0.0, ("dampingFactor",),
+    Setting("angular_decay", "", "velocity_decay/angular", 0.0, ("dampingFactor",),
             range=_POSITIVE),
-    Setting("wind", "flag", "", "enable_wind", False),
-    Setting("kinematic", "flag", "", "kinematic", False),
-    Setting("must_be_base_link", "flag", "", "must_be_base_link", False),
-)  # fmt: skip
+    Setting("wind", "", "enable_wind", False),
+    Setting("kinematic", "", "kinematic", False),
+    Setting("must_be_base_link", "", "must_be_base_link", False),
+))  # fmt: skip
 """Settings of a link."""
 
-OF_JOINTS = (
-    Setting("spring_stiffness", "number", "N·m/rad or N/m", "axis/dynamics/spring_stiffness", 0.0,
+OF_JOINTS = add_kinds("joint", (
+    Setting("spring_stiffness", "N·m/rad or N/m", "axis/dynamics/spring_stiffness", 0.0,
             ("springStiffness",), range=_POSITIVE, mjcf="joint stiffness"),
-    Setting("spring_reference", "number", "rad or m", "axis/dynamics/spring_reference", 0.0,
+    Setting("spring_reference", "rad or m", "axis/dynamics/spring_reference", 0.0,
             ("springReference",), mjcf="joint springref"),
-    Setting("limit_stiffness", "number", "N·m/rad or N/m", "axis/limit/stiffness", 1e8),
-    Setting("limit_dissipation", "number", "N·m·s/rad or N·s/m", "axis/limit/dissipation", 1.0),
-    Setting("stop_cfm", "number", "", _LIMIT + "cfm", 0.0, ("stopCfm",), range=_POSITIVE),
-    Setting("stop_erp", "number", "", _LIMIT + "erp", 0.2, ("stopErp",), range=_PART),
-    Setting("fudge_factor", "number", "", "physics/ode/fudge_factor", 0.0, ("fudgeFactor",)),
-    Setting("implicit_spring_damper", "flag", "", "physics/ode/implicit_spring_damper", False,
+    Setting("limit_stiffness", "N·m/rad or N/m", "axis/limit/stiffness", 1e8),
+    Setting("limit_dissipation", "N·m·s/rad or N·s/m", "axis/limit/dissipation", 1.0),
+    Setting("stop_cfm", "", _LIMIT + "cfm", 0.0, ("stopCfm",), range=_POSITIVE),
+    Setting("stop_erp", "", _LIMIT + "erp", 0.2, ("stopErp",), range=_PART),
+    Setting("fudge_factor", "", "physics/ode/fudge_factor", 0.0, ("fudgeFactor",)),
+    Setting("implicit_spring_damper", "", "physics/ode/implicit_spring_damper", False,
             ("implicitSpringDamper", "cfmDamping"), also=_DAMPER),
-    Setting("provide_feedback", "flag", "", "physics/provide_feedback", False,
+    Setting("provide_feedback", "", "physics/provide_feedback", False,
             ("provideFeedback",)),
-    Setting("preserved", "flag", "", "", False, ("preserveFixedJoint",)),
-    Setting("not_lumped", "flag", "", "", False, ("disableFixedJointLumping",)),
-)  # fmt: skip
+    Setting("preserved", "", "", False, ("preserveFixedJoint",), kind="flag"),
+    Setting("not_lumped", "", "", False, ("disableFixedJointLumping",), kind="flag"),
+))  # fmt: skip
 """Settings of a joint; the last two keep a fixed joint, and SDF does not have them."""
 
-OF_ROBOT = (
-    Setting("static", "flag", "", "static", False, ("static",)),
-    Setting("self_collide", "flag", "", "self_collide", False),
-    Setting("wind", "flag", "", "enable_wind", False),
-    Setting("may_sleep", "flag", "", "allow_auto_disable", True),
+OF_ROBOT = add_kinds(
+    "model",
+    (
+        Setting("static", "", "static", False, ("static",)),
+        Setting("self_collide", "", "self_collide", False),
+        Setting("wind", "", "enable_wind", False),
+        Setting("may_sleep", "", "allow_auto_disable", True),
+    ),
 )
 """Settings of the whole robot, in blocks without a reference."""
 
 SURFACE_OF_MUJOCO = (
-    Setting("contype", "count", "", "", 1.0, mjcf="geom contype"),
-    Setting("conaffinity", "count", "", "", 1.0, mjcf="geom conaffinity"),
-    Setting("spinning_friction", "number", "m", "", 0.005, mjcf="geom friction"),
-    Setting("rolling_friction", "number", "m", "", 0.0001, mjcf="geom friction"),
-    Setting("condim", "count", "", "", 3.0, mjcf="geom condim"),
-    Setting("priority", "count", "", "", 0.0, mjcf="geom priority"),
-    Setting("margin", "number", "m", "", 0.0, mjcf="geom margin"),
-    Setting("gap", "number", "m", "", 0.0, mjcf="geom gap"),
-    Setting("solmix", "number", "", "", 1.0, mjcf="geom solmix"),
-    Setting("solref", "list", "", "", (0.02, 1.0), mjcf="geom solref"),
-    Setting("solimp", "list", "", "", (0.9, 0.95, 0.001, 0.5, 2.0), mjcf="geom solimp"),
+    Setting("contype", "", "", 1.0, mjcf="geom contype", kind="count"),
+    Setting("conaffinity", "", "", 1.0, mjcf="geom conaffinity", kind="count"),
+    Setting("spinning_friction", "m", "", 0.005, mjcf="geom friction", kind="number"),
+    Setting("rolling_friction", "m", "", 0.0001, mjcf="geom friction", kind="number"),
+    Setting("condim", "", "", 3.0, mjcf="geom condim", kind="count"),
+    Setting("priority", "", "", 0.0, mjcf="geom priority", kind="count"),
+    Setting("margin", "m", "", 0.0, mjcf="geom margin", kind="number"),
+    Setting("gap", "m", "", 0.0, mjcf="geom gap", kind="number"),
+    Setting("solmix", "", "", 1.0, mjcf="geom solmix", kind="number"),
+    Setting("solref", "", "", (0.02, 1.0), mjcf="geom solref", kind="list"),
+    Setting("solimp", "", "", (0.9, 0.95, 0.001, 0.5, 2.0), mjcf="geom solimp", kind="list"),
 )
 """Settings of a collision that only MuJoCo has, with its defaults."""
 
-LINKS_OF_MUJOCO = (Setting("gravity_compensation", "number", "", "", 0.0, mjcf="body gravcomp"),)
+LINKS_OF_MUJOCO = (
+    Setting("gravity_compensation", "", "", 0.0, mjcf="body gravcomp", kind="number"),
+)
 """Settings of a link that only MuJoCo has: the part of its weight that is carried."""
 
 JOINTS_OF_MUJOCO = (
-    Setting("limit_solref", "list", "", "", (0.02, 1.0), mjcf="joint solreflimit"),
-    Setting("limit_solimp", "list", "", "", (0.9, 0.95, 0.001, 0.5, 2.0),
-            mjcf="joint solimplimit"),
-    Setting("limit_margin", "number", "rad or m", "", 0.0, mjcf="joint margin"),
-    Setting("friction_solref", "list", "", "", (0.02, 1.0), mjcf="joint solreffriction"),
-    Setting("friction_solimp", "list", "", "", (0.9, 0.95, 0.001, 0.5, 2.0),
-            mjcf="joint solimpfriction"),
-    Setting("actuator_gravity_compensation", "flag", "", "", False, mjcf="joint actuatorgravcomp"),
+    Setting("limit_solref", "", "", (0.02, 1.0), mjcf="joint solreflimit", kind="list"),
+    Setting("limit_solimp", "", "", (0.9, 0.95, 0.001, 0.5, 2.0),
+            mjcf="joint solimplimit", kind="list"),
+    Setting("limit_margin", "rad or m", "", 0.0, mjcf="joint margin", kind="number"),
+    Setting("friction_solref", "", "", (0.02, 1.0), mjcf="joint solreffriction", kind="list"),
+    Setting("friction_solimp", "", "", (0.9, 0.95, 0.001, 0.5, 2.0),
+            mjcf="joint solimpfriction", kind="list"),
+    Setting("actuator_gravity_compensation", "", "", False,
+            mjcf="joint actuatorgravcomp", kind="flag"),
 )  # fmt: skip
 """Settings of a joint that only MuJoCo has, with its defaults."""
 
@@ -240,8 +280,21 @@ class Rejected(Part):
     @property
     def message(self) -> str:
         """Return what is wrong and what would be right, in one sentence."""
-        known = f"{self.kind} '{self.name}': {self.tag}"
-        return f"{known} is '{self.text}', not {self.required}; it is ignored"
+        fact = describe_rejected((self.kind, self.name), self.tag, self.text, self.required)
+        return f"{fact}; it is ignored"
+
+
+def describe_rejected(part: tuple[str, str], tag: str, text: str, required: str) -> str:
+    """Describe a text that is not a value: the first words of each message about it.
+
+    Args:
+        part: Kind and name of its part, such as ``link``.
+        tag: Tag of the element, or what of it is wrong.
+        text: What is written.
+        required: What it has to be.
+    """
+    shown = f"'{text}'" if text else "empty"
+    return f"{part[0]} '{part[1]}': {tag} is {shown}, not {required}"
 
 
 def get_text(element: Element) -> str:
@@ -292,9 +345,15 @@ def describe_kind(kind: str) -> str:
     }[kind]
 
 
-def describe_required(row: Setting) -> str:
-    """Describe the values that a setting accepts."""
-    return describe_kind(row.kind) + ("" if row.lowest is None else f" of at least {row.lowest:g}")
+def find_required(row: Setting, text: str) -> str:
+    """Describe what a text has to be as the value of a setting; empty if it is valid."""
+    content = parse(row.kind, text)
+    if content is None:
+        return describe_kind(row.kind)
+    least, most = row.bounds
+    if isinstance(content, tuple | str) or least <= content <= most:
+        return ""
+    return describe_kind(row.kind) + describe_bounds(least, most)
 
 
 def get_number(settings: Mapping[str, Value], name: str) -> float | None:

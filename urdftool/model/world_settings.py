@@ -10,58 +10,60 @@ from collections.abc import Iterable, Iterator
 from ..source.document import Element
 from .elements import Robot
 from .numbers import describe_content
-from .settings import Content, Setting, Settings, Value, parse
+from .settings import Content, Setting, Settings, Value, add_kinds, parse
 
 OF_MUJOCO = (
-    Setting("integrator", "text", "", "", "Euler", mjcf="option integrator"),
-    Setting("cone", "text", "", "", "pyramidal", mjcf="option cone"),
-    Setting("gravity", "vector", "m/s²", "gravity", (0.0, 0.0, -9.81), mjcf="option gravity"),
-    Setting("wind", "vector", "m/s", "", (0.0, 0.0, 0.0), mjcf="option wind"),
-    Setting("magnetic", "vector", "", "", (0.0, -0.5, 0.0), mjcf="option magnetic"),
-    Setting("density", "number", "kg/m³", "", 0.0, mjcf="option density"),
-    Setting("viscosity", "number", "Pa·s", "", 0.0, mjcf="option viscosity"),
-    Setting("timestep", "number", "s", "", 0.002, mjcf="option timestep"),
-    Setting("impratio", "number", "", "", 1.0, mjcf="option impratio"),
-    Setting("tolerance", "number", "", "", 1e-8, mjcf="option tolerance"),
-    Setting("iterations", "count", "", "", 100.0, mjcf="option iterations"),
-    Setting("ls_tolerance", "number", "", "", 0.01, mjcf="option ls_tolerance"),
-    Setting("ls_iterations", "count", "", "", 50.0, mjcf="option ls_iterations"),
-    Setting("noslip_tolerance", "number", "", "", 1e-6, mjcf="option noslip_tolerance"),
-    Setting("noslip_iterations", "count", "", "", 0.0, mjcf="option noslip_iterations"),
-    Setting("ccd_tolerance", "number", "", "", 1e-6, mjcf="option ccd_tolerance"),
-    Setting("ccd_iterations", "count", "", "", 35.0, mjcf="option ccd_iterations"),
-    Setting("sdf_iterations", "count", "", "", 10.0, mjcf="option sdf_iterations"),
-    Setting("sdf_initpoints", "count", "", "", 40.0, mjcf="option sdf_initpoints"),
-    Setting("sleep_tolerance", "number", "", "", 1e-3, mjcf="option sleep_tolerance"),
-    Setting("contact_margin", "number", "m", "", 0.0, mjcf="option o_margin"),
-    Setting("contact_solref", "list", "", "", (0.02, 1.0), mjcf="option o_solref"),
-    Setting("contact_solimp", "list", "", "", (0.9, 0.95, 0.001, 0.5, 2.0), mjcf="option o_solimp"),
+    Setting("integrator", "", "", "Euler", mjcf="option integrator", kind="text"),
+    Setting("cone", "", "", "pyramidal", mjcf="option cone", kind="text"),
+    Setting("gravity", "m/s²", "gravity", (0.0, 0.0, -9.81), mjcf="option gravity", kind="vector"),
+    Setting("wind", "m/s", "", (0.0, 0.0, 0.0), mjcf="option wind", kind="vector"),
+    Setting("magnetic", "", "", (0.0, -0.5, 0.0), mjcf="option magnetic", kind="vector"),
+    Setting("density", "kg/m³", "", 0.0, mjcf="option density", kind="number"),
+    Setting("viscosity", "Pa·s", "", 0.0, mjcf="option viscosity", kind="number"),
+    Setting("timestep", "s", "", 0.002, mjcf="option timestep", kind="number"),
+    Setting("impratio", "", "", 1.0, mjcf="option impratio", kind="number"),
+    Setting("tolerance", "", "", 1e-8, mjcf="option tolerance", kind="number"),
+    Setting("iterations", "", "", 100.0, mjcf="option iterations", kind="count"),
+    Setting("ls_tolerance", "", "", 0.01, mjcf="option ls_tolerance", kind="number"),
+    Setting("ls_iterations", "", "", 50.0, mjcf="option ls_iterations", kind="count"),
+    Setting("noslip_tolerance", "", "", 1e-6, mjcf="option noslip_tolerance", kind="number"),
+    Setting("noslip_iterations", "", "", 0.0, mjcf="option noslip_iterations", kind="count"),
+    Setting("ccd_tolerance", "", "", 1e-6, mjcf="option ccd_tolerance", kind="number"),
+    Setting("ccd_iterations", "", "", 35.0, mjcf="option ccd_iterations", kind="count"),
+    Setting("sdf_iterations", "", "", 10.0, mjcf="option sdf_iterations", kind="count"),
+    Setting("sdf_initpoints", "", "", 40.0, mjcf="option sdf_initpoints", kind="count"),
+    Setting("sleep_tolerance", "", "", 1e-3, mjcf="option sleep_tolerance", kind="number"),
+    Setting("contact_margin", "m", "", 0.0, mjcf="option o_margin", kind="number"),
+    Setting("contact_solref", "", "", (0.02, 1.0), mjcf="option o_solref", kind="list"),
+    Setting(
+        "contact_solimp", "", "", (0.9, 0.95, 0.001, 0.5, 2.0), mjcf="option o_solimp", kind="list"
+    ),
     Setting(
         "contact_friction",
-        "list",
         "",
         "",
         (1.0, 1.0, 0.005, 0.0001, 0.0001),
         mjcf="option o_friction",
+        kind="list",
     ),
-    Setting("disabled_actuators", "text", "", "", "", mjcf="option actuatorgroupdisable"),
-    Setting("jacobian", "text", "", "", "auto", mjcf="option jacobian"),
-    Setting("solver", "text", "", "", "Newton", mjcf="option solver"),
-    Setting("disabled", "text", "", "", "", mjcf="option disableflags"),
-    Setting("enabled", "text", "", "", "", mjcf="option enableflags"),
+    Setting("disabled_actuators", "", "", "", mjcf="option actuatorgroupdisable", kind="text"),
+    Setting("jacobian", "", "", "auto", mjcf="option jacobian", kind="text"),
+    Setting("solver", "", "", "Newton", mjcf="option solver", kind="text"),
+    Setting("disabled", "", "", "", mjcf="option disableflags", kind="text"),
+    Setting("enabled", "", "", "", mjcf="option enableflags", kind="text"),
 )
 """Settings of the world around a robot: ``<option>`` of MJCF, with the defaults of MuJoCo 4.0."""
 
-OF_SDF = (
-    Setting("gravity", "vector", "m/s²", "gravity", (0.0, 0.0, -9.8), mjcf="option gravity",
+OF_SDF = add_kinds("world", (
+    Setting("gravity", "m/s²", "gravity", (0.0, 0.0, -9.8), mjcf="option gravity",
             also="physics/gravity"),
-    Setting("wind_velocity", "vector", "m/s", "wind/linear_velocity", (0.0, 0.0, 0.0)),
-    Setting("magnetic_field", "vector", "T", "magnetic_field", (6e-06, 2.3e-05, -4.2e-05),
+    Setting("wind_velocity", "m/s", "wind/linear_velocity", (0.0, 0.0, 0.0)),
+    Setting("magnetic_field", "T", "magnetic_field", (6e-06, 2.3e-05, -4.2e-05),
             also="physics/magnetic_field"),
-    Setting("temperature", "number", "K", "atmosphere/temperature", 288.15),
-    Setting("temperature_gradient", "number", "K/m", "atmosphere/temperature_gradient", -0.0065),
-    Setting("pressure", "number", "Pa", "atmosphere/pressure", 101325.0),
-)  # fmt: skip
+    Setting("temperature", "K", "atmosphere/temperature", 288.15),
+    Setting("temperature_gradient", "K/m", "atmosphere/temperature_gradient", -0.0065),
+    Setting("pressure", "Pa", "atmosphere/pressure", 101325.0),
+))  # fmt: skip
 """Settings of ``<world>`` of SDF, with the defaults of its specification.
 
 Gravity and magnetic field are in ``<physics>`` before SDF 1.6.

@@ -4,6 +4,9 @@ import math
 
 import pytest
 
+from urdftool.formats.mjcf.options import Options
+from urdftool.formats.registry import format_named
+from urdftool.model.load import load
 from urdftool.refusal import Refused
 
 from .robots import BOX, INERTIAL, export, find, joint, link, robot, rules, tree
@@ -59,7 +62,8 @@ def test_what_is_not_carried_is_said(write, keyword):
 
 
 def test_a_reference_to_nothing_is_said(write):
-    assert "lossy-gazebo" in rules(exported(write, gazebo("<mu1>1</mu1>", "ghost")))
+    path = write("r.urdf", robot(link("a", SHAPES), gazebo("<mu1>1</mu1>", "ghost")))
+    assert "dangling-block" in rules(format_named("mjcf").write(load(path), Options()))
 
 
 def test_camera_looks_along_x(write):

@@ -7,6 +7,7 @@ import pytest
 
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
+from urdftool.formats.registry import format_named
 from urdftool.model.load import load
 from urdftool.refusal import Refused
 
@@ -76,8 +77,6 @@ def test_a_pose_in_the_frame_of_another_link(write):
 @pytest.mark.parametrize(
     "choices",
     [
-        {"kind": "prismatic"},
-        {"kind": "universal"},
         {"parent": "ghost"},
         {"child": "ghost"},
         {"child": "b"},
@@ -85,8 +84,17 @@ def test_a_pose_in_the_frame_of_another_link(write):
         {"inside": '<pose relative_to="ghost">0 0 0 0 0 0</pose>'},
     ],
 )
-def test_what_is_not_carried_is_said(write, choices):
-    written = export(write("r.urdf", closed(**choices)), actuators="none")
+def test_a_loop_that_the_robot_does_not_hold_is_said(write, choices):
+    path = write("r.urdf", closed(**choices))
+    written = format_named("mjcf").write(load(path), Options(actuators="none"))
+    assert rules(written) == ["rejected-setting"]
+    assert "closed loop 'loop'" in written.losses[0].message
+    assert tree(written).find("equality") is None
+
+
+@pytest.mark.parametrize("kind", ["prismatic", "universal"])
+def test_what_is_not_carried_is_said(write, kind):
+    written = export(write("r.urdf", closed(kind=kind)), actuators="none")
     assert rules(written) == ["lossy-loop"]
     assert tree(written).find("equality") is None
 

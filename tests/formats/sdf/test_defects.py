@@ -159,7 +159,8 @@ def test_all_defects_are_said_at_once():
 @pytest.mark.parametrize("text", ["", "nan", "1e400", "0x10", "1,5", "1_000", "${mu}"])
 def test_numbers_of_extensions(text):
     error = refused(link("a"), gazebo("a", f"<mu1>{text}</mu1>"))
-    assert f"'{text}', not a finite number" in error.message
+    shown = f"'{text}'" if text else "empty"
+    assert f"link 'a': mu1 is {shown}, not a finite number" in error.message
 
 
 def test_numbers_of_sensors():
@@ -191,7 +192,7 @@ def test_a_shape_that_cannot_be_written_is_left_out_alone():
 
 def test_a_pose_that_is_none_is_left_out_when_forced():
     said = gazebo("a", '<sensor name="s" type="imu"><pose>1 2 x</pose></sensor>')
-    assert "6 numbers" in refused(link("a"), said).message
+    assert "six finite numbers" in refused(link("a"), said).message
     assert tree(export(link("a"), said, force=True)).find("link/sensor/pose") is None
 
 

@@ -2,9 +2,25 @@
 
 import pytest
 
+from urdftool.formats.registry import format_named
+from urdftool.formats.sdf.options import Options
 from urdftool.model.settings import JOINT_TAGS, SURFACE_TAGS, list_rows
 
-from .robots import BOX, CUBE, TWO, export, gazebo, inertial, joint, link, named, names, rules, tree
+from .robots import (
+    BOX,
+    CUBE,
+    TWO,
+    export,
+    gazebo,
+    inertial,
+    joint,
+    link,
+    named,
+    names,
+    robot,
+    rules,
+    tree,
+)
 
 NAMED = f'{inertial()}<collision name="foot">{BOX}</collision><collision>{BOX}</collision>'
 VALUES = {"number": "0.25", "count": "7", "vector": "0 1 0", "flag": "true"}
@@ -73,8 +89,9 @@ def test_a_link_and_a_joint_of_one_name_each_get_their_own():
 
 
 def test_a_reference_to_nothing_is_said():
-    written = export(link("a", NAMED), gazebo("{prefix}a", "<mu1>1</mu1>"), gazebo("foot", ""))
-    assert rules(written) == ["lossy-reference", "lossy-reference"]
+    blocks = gazebo("{prefix}a", "<mu1>1</mu1>"), gazebo("foot", "")
+    written = format_named("sdf").write(robot(link("a", NAMED), *blocks), Options())
+    assert rules(written) == ["dangling-block", "dangling-block"]
     assert "it is a shape of link 'a'" in written.losses[1].message
 
 

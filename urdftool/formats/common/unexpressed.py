@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ...diagnostic import Severity
 from ...model.appearance import find_unknown_script
-from ...model.elements import Material, Mesh, Robot, Visual
+from ...model.elements import Link, Material, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
 from ...model.part import Part
 from ...model.read_settings import list_settings
@@ -95,7 +95,7 @@ def report_unwritten_settings(
 
 
 def report_unknown_colors(robot: Robot, written: Written) -> None:
-    """Report scripts of Gazebo that color visuals, once a link, and undefined materials.
+    """Report scripts of Gazebo that color visuals, once a link.
 
     Args:
         robot: The source.
@@ -104,19 +104,15 @@ def report_unknown_colors(robot: Robot, written: Written) -> None:
     for link in robot.links:
         scripts: set[str] = set()
         for visual in link.visuals:
-            shown, material = find_shown_material(robot, link, visual), visual.material
+            shown = find_shown_material(robot, link, visual)
             script = find_unknown_script(link, visual)
             if script and script not in scripts:
-                why = f"material '{script}' of link '{link.name}' is a script of Gazebo"
-                _report_color(written, ("link", link.name), why, visual, shown)
-            elif shown is None and not script and material is not None and material.name:
-                why = f"material '{material.name}' is not defined"
-                _report_color(written, ("material", material.name), why, visual, shown)
+                _report_script(written, link, script, visual, shown)
             scripts.add(script)
 
 
-def _report_color(
-    written: Written, part: tuple[str, str], why: str, visual: Visual, shown: Material | None
+def _report_script(
+    written: Written, link: Link, script: str, visual: Visual, shown: Material | None
 ) -> None:
     """Report a material whose color is unknown, and what is written for it."""
     kept = "the visual has no color"
@@ -126,9 +122,8 @@ def _report_color(
         kept = "only colors in the mesh file are kept"
     severity = Severity.WARNING if shown is None else Severity.INFO
     place = visual.place if visual.material is None else visual.material.place
-    written.report_loss(
-        "material", f"{why}; {kept}", place, kind=part[0], name=part[1], severity=severity
-    )
+    text = f"material '{script}' of link '{link.name}' is a script of Gazebo; {kept}"
+    written.report_loss("material", text, place, kind="link", name=link.name, severity=severity)
 
 
 def _list_world_kinds(robot: Robot) -> Iterator[_Kind]:

@@ -107,24 +107,10 @@ def report_gazebo_losses(robot: Robot, written: Written) -> None:
     """Report the settings and extensions that are not exported."""
     if robot.xml is None:
         report_unwritten_settings(robot, written, _is_written)
-    unknown: set[int] = set()
     for block, child in list_elements(robot):
         reference = block.reference
         if reference is None or reference in robot.link or reference in robot.joint:
             _report_keyword_loss(block, child, written)
-        elif id(block) not in unknown:
-            unknown.add(id(block))
-            written.report_loss(
-                "gazebo",
-                (
-                    f"<gazebo reference='{reference}'> does not name a link or joint of the "
-                    "robot; it "
-                    "is not exported"
-                ),
-                block.place,
-                kind="gazebo",
-                name=reference,
-            )
     for plugin in robot.plugins:
         written.report_loss(
             "plugin",

@@ -19,7 +19,6 @@ from ...model.pose import (
     make_pose,
     rotate,
 )
-from ...model.settings import Rejected
 from ..common.naming import UniqueNames
 from ..common.numbers import format_numbers_text
 from ..written import Written
@@ -50,9 +49,6 @@ def plan_closures(structure: Structure, written: Written) -> list[Closure]:
     Their parent is the child of the SDF joint, in whose frame MuJoCo has the point. A hinge of a
     spatial loop is held at two points.
     """
-    for rejected in structure.robot.rejected_settings:
-        if rejected.kind == "closed loop":
-            _report_rejected(rejected, written)
     names, found = UniqueNames(), []
     for closure in structure.robot.closures:
         kind = _get_kind(closure)
@@ -94,19 +90,6 @@ def _report_apart(closure: Closure, written: Written) -> None:
         closure.place,
         kind="closed loop",
         name=closure.name,
-    )
-
-
-def _report_rejected(rejected: Rejected, written: Written) -> None:
-    text = f"its {rejected.tag} is '{rejected.text}' and must be {rejected.required}"
-    if rejected.tag in ("parent", "child"):
-        text = f"its {rejected.tag} '{rejected.text}' is not {rejected.required}"
-    written.report_loss(
-        "loop",
-        f"joint '{rejected.name}' of <gazebo> is not exported: {text}",
-        rejected.place,
-        kind="gazebo",
-        name=rejected.name,
     )
 
 

@@ -239,17 +239,7 @@ _FORWARD = Pose(rotation_from_rpy((0.0, math.pi / 2, 0.0)))
 
 
 def _report_unknown(robot: Robot, written: Written) -> None:
-    """Report the sensors that the model does not hold."""
-    for rejected in robot.rejected_settings:
-        if rejected.kind == "sensor":
-            written.report_loss(
-                "sensor",
-                f"sensor '{rejected.name}' is not exported completely: {rejected.tag} is "
-                f"'{rejected.text}' and must be {rejected.required}",
-                rejected.place,
-                kind="sensor",
-                name=rejected.name,
-            )
+    """Report the sensors of ros2_control that the model does not hold."""
     known = {sensor.name for sensor in robot.mounted_sensors if sensor.quantities}
     for control in robot.ros2_controls:
         for component in control.components:

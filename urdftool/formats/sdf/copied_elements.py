@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from ...model.block_elements import list_model_elements
+from ...model.block_elements import find_owner, list_model_elements
 from ...model.elements import Joint, Link
 from ...model.pose import Pose, rotation_from_rpy
 from ...model.read import parse_numbers
 from ...model.sdf_schema import find_requirement, get_children
+from ...model.settings import describe_rejected
 from ...source.document import Element
 from ..common.naming import get_free_name
 from .imu import is_old_noise
@@ -53,7 +54,7 @@ def copy_raw_element(
         t.report_loss("element", text, element, about)
         return None
     if required := find_requirement(str(node.tag), element):
-        text = f"<{element.tag}> is '{element.text.strip()}', not {required.text}"
+        text = _describe(t, element, required.text)
         t.report_loss("extension", f"{text}; it is not exported", element, about)
         return None
     if about is None and element.tag in OWN_FRAMES - {"joint"} and _is_taken(node, element):
@@ -110,13 +111,18 @@ def remove_invalid(
             made.remove(child)
         elif required := find_requirement(str(made.tag), source):
             made.remove(child)
-            text = f"<{source.tag}> of <{made.tag}> is '{source.text.strip()}', not {required.text}"
+            text = _describe(t, source, required.text)
             t.report_loss("extension", f"{text}; it is not exported", source, about)
         elif _is_known(element.tag, source):
             remove_invalid(child, t, source, about)
         else:
             _keep_as_comment(made, t, source, about)
             made.replace(child, made[-1])
+
+
+def _describe(t: Translation, element: Element, required: str) -> str:
+    owner = find_owner(t.robot, element)
+    return describe_rejected(owner, element.tag, element.text.strip(), required)
 
 
 def _keep_as_comment(

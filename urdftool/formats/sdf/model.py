@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...model.block_elements import list_dangling_blocks, list_model_elements
+from ...model.block_elements import list_model_elements
 from ...model.settings import OF_ROBOT
 from ...model.world import find_model_origin
 from ...source.document import Element
@@ -79,7 +79,6 @@ def _add_parts(node: Node, t: Translation) -> None:
             copy_raw_element(node, t, element)
     add_body_sensors(node, t)
     add_native(node, t)
-    _report_dangling(t)
 
 
 def _add_closing_joint(node: Node, t: Translation, element: Element) -> None:
@@ -129,14 +128,6 @@ def _collect_ends(element: Element) -> list[tuple[str, str]]:
 
 def _can_join(t: Translation, end: str, name: str) -> bool:
     return is_frame(t, name) and name != "" if name != WORLD else end == "parent"
-
-
-def _report_dangling(t: Translation) -> None:
-    for name, block in list_dangling_blocks(t.robot):
-        shapes = {s.name: link for link, s in t.robot.shapes if s.name}
-        of = f"; it is a shape of link '{shapes[name].name}'" if name in shapes else ""
-        text = f"<gazebo> refers to '{name}', which is neither a link nor a joint{of}"
-        t.report_loss("reference", f"{text}; it is not exported", block)
 
 
 def _report_world(t: Translation) -> None:

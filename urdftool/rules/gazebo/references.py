@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from ...diagnostic import Severity
+from ...model.block_elements import list_part_elements
 from ...model.elements import GazeboExtension, Robot
+from ...model.numbers import describe_content
+from ...model.remarks import describe_dangling, describe_repeated, list_repeated_settings
+from ...model.settings import Value, get_text
 from ...source.document import Element
 from ..fix import (
     FixContext,
@@ -75,8 +79,7 @@ def dangling_reference(robot: Robot) -> Iterator[Problem]:
         suggestion = find_nearest(name, known, _MIN_SIMILARITY)
         yield Problem(
             block.element,
-            f"reference '{name}' is neither a link nor a joint, so Gazebo ignores the block"
-            + suggest_name(name, known, _MIN_SIMILARITY),
+            describe_dangling(robot, name) + suggest_name(name, known, _MIN_SIMILARITY),
             at=block.locate_attribute("reference"),
             severity=_choose_severity(block, bool(suggestion)),
             data={"name": name, "suggestion": suggestion},
@@ -303,21 +306,23 @@ def conflicting_references(robot: Robot) -> Iterator[Problem]:
     This happens if two included files have a block for the same link. Gazebo uses the last value,
     so the order of includes decides.
     """
-    for name, blocks in robot.extensions.items():
-        values: dict[str, str] = {}
-        for block in blocks:
-            for child in block.element.children:
-                if child.tag not in KEYWORDS or child.tag in ("collision", "visual"):
-                    continue
-                value = (child.get("value") or child.text).strip()
-                other = values.setdefault(child.tag, value)
-                if other != value:
-                    values[child.tag] = value
-                    of = f" of '{name}'" if name else ""
-                    yield Problem(
-                        block.element,
-                        f"{child.tag}{of} is {other} in an earlier block but {value} here; "
-                        "keep one",
-                        at=child,
-                        data={"element": child.tag, "values": [other, value]},
-                    )
+    for part, value in list_repeated_settings(robot):
+        yield _report_repeated(part, value)
+    for link in robot.links:
+        names = [e for e in list_part_elements(robot, link) if e.tag == "material"]
+        values = [Value(e, get_text(e)) for e in names if not e.children]
+        if len({value.content for value in values}) > 1:
+            last = values[-1]
+            yield _report_repeated(
+                ("link", link.name), Value(last.provenance, last.content, tuple(values[:-1]))
+            )
+
+
+def _report_repeated(part: tuple[str, str], value: Value) -> Problem:
+    contents = [describe_content(one.written) for one in (*value.earlier, value)]
+    return Problem(
+        value.element,
+        f"{describe_repeated(part, value)}; keep one",
+        at=value.element,
+        data={"element": value.tag, "values": contents},
+    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -10,7 +9,16 @@ from ...model.block_elements import list_part_elements
 from ...model.elements import Joint, Link, Robot
 from ...model.read import number
 from ...model.read_settings import list_settings
-from ...model.settings import SURFACE, TABLES, Setting, get_text, list_rows
+from ...model.sdf_schema import describe_bounds
+from ...model.settings import (
+    SURFACE,
+    UNBOUNDED,
+    Setting,
+    describe_kind,
+    describe_rejected,
+    get_text,
+    list_rows,
+)
 from ...source.document import Element
 from ..rule import ERROR, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
@@ -66,22 +74,21 @@ def setting_out_of_range(robot: Robot) -> Iterator[Problem]:
         text = get_text(written.element)
         value = number(text)
         if written.is_bullet and written.element.get("value") is None:
-            yield _report(written, "has no attribute value; write it", (_NO_VALUE,))
+            yield _report(written, "", (_NO_VALUE,))
             continue
         if value is None:
             if written.is_bullet and not is_unexpanded(text):
-                yield _report(written, f"is '{text}', not a number; write one", (_NO_NUMBER,))
+                yield _report(written, describe_kind(written.row.kind), (_NO_NUMBER,))
             continue
         least, most = get_range(written.row)
-        if least <= value <= most:
-            continue
-        where = f"between {least:g} and {most:g}" if math.isfinite(most) else f"{least:g} or more"
-        yield _report(written, f"is {value:g}; it must be {where}", _list_effects(written))
+        if not least <= value <= most:
+            required = describe_kind(written.row.kind) + describe_bounds(least, most)
+            yield _report(written, required, _list_effects(written))
 
 
 def get_range(row: Setting) -> tuple[float, float]:
     """Return the smallest and largest value that make sense."""
-    return (row.range[0] if row.lowest is None else row.lowest, row.range[1])
+    return row.range if row.bounds == UNBOUNDED else row.bounds
 
 
 def _list_written(robot: Robot) -> Iterator[_Written]:
@@ -111,33 +118,32 @@ def _list_bullet(robot: Robot) -> Iterator[_Written]:
 
 
 def _list_others(robot: Robot) -> Iterator[_Written]:
-    """Yield the elements of SDF that the model has as values, or rejected."""
+    """Yield the elements of SDF that the model has; ``invalid-sdf-value`` reports others."""
     for kind, name, rows, settings in list_settings(robot):
         part = robot.link.get(name) if kind == "link" else robot.joint.get(name)
         for row in rows:
             value = settings.get(row.name)
             if part is not None and value is not None and value.xml is not None:
                 yield _Written(part, value.xml, row)
-    for one in robot.rejected_settings:
-        part = robot.link.get(one.name) if one.kind == "link" else robot.joint.get(one.name)
-        rows = [row for table in TABLES for row in table if row.path.endswith(f"/{one.tag}")]
-        if part is not None and one.xml is not None and rows:
-            yield _Written(part, one.xml, rows[0])
 
 
 def _list_effects(written: _Written) -> tuple[str, ...]:
     if written.is_bullet:
         return (_STIFFNESS,) if written.row.contact == "stiffness" else (_BULLET,)
-    return (_REJECTED,) if written.row.lowest is not None else (_TAKEN,)
+    return (_TAKEN,) if written.row.bounds == UNBOUNDED else (_REJECTED,)
 
 
-def _report(written: _Written, what: str, effects: tuple[str, ...]) -> Problem:
+def _report(written: _Written, required: str, effects: tuple[str, ...]) -> Problem:
+    """Report a value that is not what it has to be; without a requirement, that it is absent."""
     element, part = written.element, written.part
     kind = "link" if isinstance(part, Link) else "joint"
+    message = f"{kind} '{part.name}': {element.tag} has no attribute value; write it"
+    if required:
+        message = describe_rejected((kind, part.name), element.tag, get_text(element), required)
     is_attribute = element.get("value") is not None
     return Problem(
         part,
-        f"{kind} '{part.name}': {element.tag} {what}",
+        message,
         at=element.locate_attribute("value") if is_attribute else element,
         severity=ERROR if not _REJECTS.isdisjoint(effects) else None,
         effects=effects,

@@ -5,10 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Set
 
+from ...model.block_elements import find_owner
 from ...model.elements import GazeboExtension, Joint, Robot
 from ...model.read import number
 from ...model.sdf_schema import find_requirement, find_requirement_of_attribute
-from ...model.settings import JOINT_TAGS, get_text
+from ...model.settings import (
+    JOINT_TAGS,
+    describe_kind,
+    describe_rejected,
+    get_text,
+    list_rows,
+    parse,
+)
 from ...source.description import Description
 from ...source.document import Element
 from ...source.location import Place
@@ -26,7 +34,6 @@ from ..fix import (
 from ..rule import ERROR, INFO, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..simulation.mujoco_values import describe_required_setting, find_setting_elements
 from ..unexpanded import is_unexpanded
-from .block_values import describe_required_keyword_value, get_kind
 from .contact import get_contact_role
 from .keywords import KEYWORDS, NUMBERS
 from .lumped_model import find_kept_links, is_joint_kept
@@ -65,16 +72,14 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
             number = _LEADING.match(text)
             if number is not None and number.end() == len(text):
                 continue
-            at = None if written is None else child.locate_attribute("value")
+            fact = describe_rejected(find_owner(robot, child), child.tag, text, "a finite number")
             if number is None:
-                what = f"'{text}', which is not a number" if text else "empty"
-                message = f"{child.tag} is {what}, so Gazebo aborts; write a number"
-                yield Problem(block.element, message, at=at or child)
+                yield Problem(block.element, f"{fact}, so Gazebo aborts", at=child)
             else:
                 yield Problem(
                     block.element,
-                    f"{child.tag} is '{text}', of which Gazebo only reads {number[0]}; write that",
-                    at=at or child,
+                    f"{fact}; Gazebo reads only {number[0]}",
+                    at=child,
                     severity=WARNING,
                     data={"write": number[0]},
                 )
@@ -93,17 +98,20 @@ def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
         parts = [part for part in (robot.link.get(name), robot.joint.get(name)) if part is not None]
         for element in block.element.children:
             of_joint = element.tag in JOINT_TAGS
-            required = describe_required_keyword_value(element)
-            for part in parts if required else ():
+            kind, text = next((row.kind for row in list_rows(element.tag)), ""), get_text(element)
+            for part in parts if kind and parse(kind, text) is None else ():
                 if isinstance(part, Joint) == of_joint:
-                    text = f"<{element.tag}> of '{name}' is '{get_text(element)}', not {required}"
-                    kind = get_kind(element.tag)
-                    yield Problem(part, text, at=element, data={"holder": "keyword", "kind": kind})
+                    yield Problem(
+                        part,
+                        _describe(robot, element, describe_kind(kind)),
+                        at=element,
+                        data={"holder": "keyword", "kind": kind},
+                    )
         for above, element in iterate_sdf_elements(robot, block):
             if needed := find_requirement(above, element):
                 yield Problem(
                     parts[0] if parts else block.element,
-                    f"<{element.tag}> of <{above}> is '{get_text(element)}', not {needed.text}",
+                    _describe(robot, element, needed.text),
                     at=element,
                     data={
                         "holder": "element",
@@ -119,6 +127,10 @@ def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
                     at=element.locate_attribute(attribute),
                     data={"holder": "mujoco"},
                 )
+
+
+def _describe(robot: Robot, element: Element, required: str) -> str:
+    return describe_rejected(find_owner(robot, element), element.tag, get_text(element), required)
 
 
 def _is_loop_placement(block: Element, element: Element) -> bool:
@@ -275,7 +287,7 @@ def invalid_sdf_value(robot: Robot, description: Description) -> Iterator[Proble
     """
     if robot.format == "sdf":
         for parent, element in _iterate("", description.document.root):
-            yield from _check(parent, element)
+            yield from _check(robot, parent, element)
     kept = find_kept_links(robot) or set()
     for block in robot.gazebo if kept else ():
         if not _is_read(robot, block, kept):
@@ -285,7 +297,7 @@ def invalid_sdf_value(robot: Robot, description: Description) -> Iterator[Proble
             if not (
                 is_lumped_link and (parent, element.tag) == ("sensor", "pose")
             ):  # sdformat computes another
-                yield from _check(parent, element)
+                yield from _check(robot, parent, element)
 
 
 def _is_read(robot: Robot, block: GazeboExtension, kept: Set[str]) -> bool:
@@ -319,18 +331,18 @@ def _iterate(parent: str, element: Element) -> Iterator[tuple[str, Element]]:
             todo += [(element.tag, child) for child in reversed(element.children)]
 
 
-def _check(parent: str, element: Element) -> Iterator[Problem]:
+def _check(robot: Robot, parent: str, element: Element) -> Iterator[Problem]:
     """Check the text of an element and its attributes."""
     text = element.text.strip()
     required = find_requirement(parent, element)
     if required and not is_unexpanded(text):
-        shown = f"'{text}', not" if text else "empty; it needs"
-        fact = f"<{element.tag}> of <{parent}> is {shown} {required.text}"
+        fact = _describe(robot, element, required.text)
         yield from _report(element, element, fact, required.effect)
     for name, value in element.attributes.items():
         required = find_requirement_of_attribute(element, name)
         if required and not is_unexpanded(value):
-            fact = f"{name} of <{element.tag}> is '{value}', not {required.text}"
+            what = f"{name} of <{element.tag}>"
+            fact = describe_rejected(find_owner(robot, element), what, value, required.text)
             yield from _report(element, element.locate_attribute(name), fact, required.effect)
 
 

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...model.read import parse_numbers
+from ...model.settings import Setting
+from ...model.world_settings import OF_MUJOCO
 from ...source.document import Element
 
 READER_SETTINGS = frozenset(
@@ -23,6 +25,13 @@ BOOLEAN = ("true", "false")
 WHOLE = 0
 """Marks a single integer. Chosen, no source."""
 
+
+def _count_numbers(row: Setting) -> int:
+    """Return the count of numbers of an attribute, as in ``VALUES``."""
+    count = len(row.default) if isinstance(row.default, tuple) else 1
+    return {"count": WHOLE, "list": -count}.get(row.kind, count)
+
+
 # tag -> attribute -> count of numbers (-n for at most n), or allowed words; other attributes
 # are copied unchecked
 VALUES: dict[str, dict[str, int | tuple[str, ...]]] = {
@@ -30,19 +39,8 @@ VALUES: dict[str, dict[str, int | tuple[str, ...]]] = {
         **dict.fromkeys(("alignfree", "fitaabb", "usethread", "saveinertial"), BOOLEAN),
     },
     "option": {
-        **dict.fromkeys(
-            ("timestep", "impratio", "tolerance", "ls_tolerance", "noslip_tolerance",
-             "ccd_tolerance", "sleep_tolerance", "density", "viscosity", "o_margin"),
-            1,
-        ),
-        **dict.fromkeys(
-            ("iterations", "ls_iterations", "noslip_iterations", "ccd_iterations",
-             "sdf_iterations", "sdf_initpoints"),
-            WHOLE,
-        ),
-        **dict.fromkeys(("gravity", "wind", "magnetic"), 3),
-        "o_solref": -2,
-        **dict.fromkeys(("o_solimp", "o_friction"), -5),
+        **{row.mjcf.removeprefix("option "): _count_numbers(row) for row in OF_MUJOCO
+           if row.kind != "text"},
         "integrator": ("Euler", "RK4", "implicit", "implicitfast"),
         "cone": ("pyramidal", "elliptic"),
         "jacobian": ("dense", "sparse", "auto"),

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Material, Robot
 from ...model.read import parse_numbers
+from ...model.remarks import describe_undefined
 from ...suggestions import find_nearest, suggest_name
 from ..fix import (
     FixContext,
@@ -59,7 +60,7 @@ def undefined_material(robot: Robot) -> Iterator[Problem]:
             first = materials[0]
             yield Problem(
                 first.element,
-                f"material '{name}' is not defined{times}"
+                f"{describe_undefined(name)}{times}"
                 + (suggest_name(name, defined) or "; add a <color>"),
                 at=first.locate_attribute("name"),
                 data={"material": name, "suggestion": find_nearest(name, defined)},
