@@ -13,6 +13,7 @@ from ..mechanics.reference import Array
 from ..model.elements import BALL_TYPES, Joint, Limit, Mimic, Robot
 from ..model.kinematics import follow_mimic_chain, get_limits
 from ..model.part import Part
+from ..model.settings import RESISTANCE, split_unit
 from .bodies import HINGES, compute_axis
 from .difference import Comparison, Difference
 from .frames import format_vector
@@ -23,11 +24,11 @@ UNLIMITED = 1e9
 
 
 _POSITION, _FORCE, _RATE = ("rad", "m"), ("N·m", "N"), ("rad/s", "m/s")
-_DAMPING, _ARMATURE, _NONE = ("N·m·s/rad", "N·s/m"), ("kg·m²", "kg"), ("", "")
+_NONE = ("", "")
 
 _UNITS = {
     "limit": {"lower": _POSITION, "upper": _POSITION, "effort": _FORCE, "velocity": _RATE},
-    "dynamics": {"damping": _DAMPING, "friction": _FORCE, "armature": _ARMATURE},
+    "dynamics": {row.name: split_unit(row.unit) for row in RESISTANCE},
     "mimic": {"joint": _NONE, "multiplier": _NONE, "offset": _POSITION},
     "safety_controller": {
         "soft_lower_limit": _POSITION,

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from ..model.elements import Robot
 from ..model.numbers import parse_numbers
+from ..model.settings import RESISTANCE_OF_URDF
 from ..source.document import Element
 
 _SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -149,7 +150,7 @@ def _is_unreadable(name: str, text: str) -> bool:
 _NUMBERS = frozenset((
     *_COUNTS, *_SIX,
     *("value", "radius", "length", "lower", "upper", "effort", "velocity", "acceleration", "jerk"),
-    *("deceleration", "damping", "friction", "multiplier", "offset", "soft_lower_limit"),
+    *RESISTANCE_OF_URDF, *("deceleration", "multiplier", "offset", "soft_lower_limit"),
     *("soft_upper_limit", "k_position", "k_velocity", "rising", "falling", "reference_position"),
 ))  # fmt: skip
 """Attributes that are numbers; others are ignored by every reader."""

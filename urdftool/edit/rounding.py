@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..errors import ModelError
 from ..model.numbers import parse_numbers
+from ..model.settings import RESISTANCE_OF_URDF
 from ..source.document import Element
 from .draft import Draft
 from .numbers import format_number, format_relative
@@ -13,7 +14,7 @@ _ATTRIBUTES = {
     "axis": ("xyz",),
     "limit": ("lower", "upper", "effort", "velocity"),
     "mimic": ("multiplier", "offset"),
-    "dynamics": ("damping", "friction"),
+    "dynamics": RESISTANCE_OF_URDF,
     "safety_controller": ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"),
     "calibration": ("rising", "falling", "reference_position"),
     "box": ("size",),

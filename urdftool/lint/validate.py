@@ -14,6 +14,7 @@ from ..diagnostic import Severity
 from ..errors import ModelError
 from ..finding import Finding
 from ..model.elements import Joint, Link, Robot
+from ..model.settings import RESISTANCE_OF_URDF
 from ..rules import get_rule
 from ..rules.rule import Problem
 
@@ -44,7 +45,8 @@ _WRITTEN = _make_conditions(
     attribute=(
         *("xyz", "rpy", "quat_xyzw", "size", "radius", "length", "scale", "rgba"),
         *("value", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
-        *("lower", "upper", "effort", "velocity", "damping", "friction"),
+        *("lower", "upper", "effort", "velocity"),
+        *RESISTANCE_OF_URDF,
         *("multiplier", "offset"),
     ),
 )

@@ -15,7 +15,7 @@ from .part import Vector
 from .plugins import read_plugin
 from .pose import IDENTITY, Pose, compute_norm, get_origin_at, rotate
 from .sensors import read_body_sensor, read_sensor, read_sensor_pose
-from .settings import Rejected, is_false
+from .settings import RESISTANCE_OF_URDF, Rejected, is_false
 from .world import WORLD
 
 if TYPE_CHECKING:
@@ -210,7 +210,7 @@ _UNBOUNDED = 1e15
 def _has_dynamics(joint: Element) -> bool:
     """Tell whether a joint of SDF has damping, friction or a spring."""
     part = _find(joint, "axis", "dynamics")
-    tags = ("damping", "friction", "spring_stiffness")
+    tags = (*RESISTANCE_OF_URDF, "spring_stiffness")
     return part is not None and any(number(_get_text(part, tag)) for tag in tags)
 
 

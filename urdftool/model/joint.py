@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from ..source.document import Element
 from .part import Origin, Part, Vector
@@ -146,6 +148,11 @@ class Joint(Part):
     def get_resistance(self, name: str) -> float:
         """Return ``damping``, ``friction`` or ``armature``; 0 if it is not written or negative."""
         return max(getattr(self.dynamics, name, None) or 0.0, 0.0)
+
+    def replace_resistance(self, values: Mapping[str, Any]) -> Joint:
+        """Return the joint with other values of its dynamics, by their names."""
+        before = self.dynamics or Dynamics(self.provenance)
+        return replace(self, dynamics=replace(before, **values)) if values else self
 
     @property
     def turns_freely(self) -> bool:

@@ -49,6 +49,7 @@ from .native import list_block_elements
 from .numbers import number as number
 from .numbers import parse_numbers as parse_numbers
 from .read_settings import add_settings
+from .settings import RESISTANCE_OF_URDF
 from .shapes import collect_content
 from .world_settings import read_options
 
@@ -223,7 +224,8 @@ _JOINT_READERS: dict[str, Callable[[Joint, Element], None]] = {
     "axis": _set_once("axis", lambda e: Axis(e, _parse_vector(e.get("xyz"), (1.0, 0.0, 0.0)))),
     "limit": _set_once("limit", _limit),
     "dynamics": _set_once(
-        "dynamics", lambda e: Dynamics(e, number(e.get("damping")), number(e.get("friction")))
+        "dynamics",
+        lambda e: Dynamics(e, **{name: number(e.get(name)) for name in RESISTANCE_OF_URDF}),
     ),
     "mimic": _set_once(
         "mimic",

@@ -45,6 +45,7 @@ class Setting(NamedTuple):
         range: Smallest and largest value that make sense, if readers take others, too.
         mjcf: What MJCF has instead; empty for nothing.
         usd: What USD has instead; empty for nothing.
+        physx: Attributes of PhysX that are the same in USD; ``*`` is the axis.
         also: A second SDF path with the value, which older readers use.
         note: Additional note for the page of the mapping.
     """
@@ -61,8 +62,14 @@ class Setting(NamedTuple):
     range: tuple[float, float] = UNBOUNDED
     mjcf: str = ""
     usd: str = ""
+    physx: tuple[str, ...] = ()
     also: str = ""
     note: str = ""
+
+    @property
+    def mjcf_attribute(self) -> str:
+        """Return the name of its attribute in MJCF; empty for none."""
+        return self.mjcf.partition(" ")[2]
 
 
 _KINDS = {
@@ -165,6 +172,20 @@ OF_JOINTS = add_kinds("joint", (
     Setting("not_lumped", "", "", False, ("disableFixedJointLumping",), kind="flag"),
 ))  # fmt: skip
 """Settings of a joint; the last two keep a fixed joint, and SDF does not have them."""
+
+RESISTANCE = add_kinds("joint", (
+    Setting("damping", "N·m·s/rad or N·s/m", "axis/dynamics/damping", 0.0, mjcf="joint damping",
+            usd="newton:damping", physx=("physxJointAxis:*:viscousFrictionCoefficient",)),
+    Setting("friction", "N·m or N", "axis/dynamics/friction", 0.0, mjcf="joint frictionloss",
+            usd="newton:friction", physx=("physxJointAxis:*:staticFrictionEffort",
+                                          "physxJointAxis:*:dynamicFrictionEffort")),
+    Setting("armature", "kg·m² or kg", "", 0.0, kind="number", mjcf="joint armature",
+            usd="newton:armature", physx=("physxJointAxis:*:armature", "physxJoint:armature")),
+))  # fmt: skip
+"""Values of ``Dynamics`` of a joint."""
+
+RESISTANCE_OF_URDF = tuple(row.name for row in RESISTANCE if row.path)
+"""Attributes of ``<dynamics>`` in URDF, which are elements of ``<dynamics>`` in SDF."""
 
 OF_ROBOT = add_kinds(
     "model",
@@ -295,6 +316,12 @@ def describe_rejected(part: tuple[str, str], tag: str, text: str, required: str)
     """
     shown = f"'{text}'" if text else "empty"
     return f"{part[0]} '{part[1]}': {tag} is {shown}, not {required}"
+
+
+def split_unit(unit: str) -> tuple[str, str]:
+    """Return the unit for a joint that turns, and for one that slides."""
+    turning, _, sliding = unit.partition(" or ")
+    return turning, sliding or turning
 
 
 def get_text(element: Element) -> str:

@@ -24,6 +24,7 @@ from ..model.elements import (
     Visual,
 )
 from ..model.pose import Pose, make_pose, rpy_from_rotation
+from ..model.settings import RESISTANCE_OF_URDF
 from ..model.shapes import get_shape_name
 from .sliders import format_value
 
@@ -131,10 +132,8 @@ def list_joint_rows(joint: Joint) -> Iterator[Row]:
         if limit.velocity is not None:
             yield "velocity", f"{limit.velocity:g} {'rad/s' if turns else 'm/s'}"
     if joint.dynamics is not None:
-        for label, value in (
-            ("damping", joint.dynamics.damping),
-            ("friction", joint.dynamics.friction),
-        ):
+        for label in RESISTANCE_OF_URDF:
+            value = getattr(joint.dynamics, label)
             if value is not None:
                 yield label, f"{value:g}"
     if joint.mimic is not None:

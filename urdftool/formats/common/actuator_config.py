@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ConfigError
+from ...model.settings import RESISTANCE, Setting
 from ...suggestions import suggest_name
 
 KEYS = ("kp", "kd", "armature", "damping", "friction", "force-range", "type")
@@ -65,6 +66,11 @@ class JointSettings:
             for field in fields(self)
         }
         return JointSettings(**values)
+
+    def list_resistance(self, rows: Iterable[Setting] = RESISTANCE) -> dict[str, Any]:
+        """Return the values of the dynamics of a joint that are set, by their names."""
+        values = {row.name: getattr(self, row.name) for row in rows}
+        return {name: value for name, value in values.items() if value is not None}
 
 
 @dataclass(frozen=True)

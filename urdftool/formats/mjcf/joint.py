@@ -10,7 +10,7 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Joint, Limit, Vector
 from ...model.pose import compute_cross, compute_norm
-from ...model.settings import JOINTS_OF_MUJOCO
+from ...model.settings import JOINTS_OF_MUJOCO, RESISTANCE
 from ..common.missing_bounds import explain_missing_bounds, explain_negative_effort
 from ..common.numbers import format_numbers_text, number_text
 from ..written import Written
@@ -202,15 +202,9 @@ def get_plane(axis: Vector) -> tuple[Vector, Vector, Vector]:
 
 
 def _set_dynamics(element: etree._Element, joint: Joint) -> None:
-    dynamics = joint.dynamics
-    if dynamics is None:
-        return
-    if dynamics.damping:
-        element.set("damping", number_text(dynamics.damping))
-    if dynamics.friction:
-        element.set("frictionloss", number_text(dynamics.friction))
-    if dynamics.armature:
-        element.set("armature", number_text(dynamics.armature))
+    for row in RESISTANCE:
+        if value := getattr(joint.dynamics, row.name, None):
+            element.set(row.mjcf_attribute, number_text(value))
 
 
 def _set_spring(element: etree._Element, spring: tuple[float, float] | None) -> None:

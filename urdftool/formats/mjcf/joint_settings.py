@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ...diagnostic import Severity
 from ...model.elements import Dynamics, Joint, Limit, Robot
+from ...model.settings import RESISTANCE
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..common.described_gains import list_described_gains
 from ..written import Written
@@ -16,7 +17,7 @@ from .options import Options
 from .structure import Structure, get_locked_at
 
 MOVING = ("hinge", "slide", "ball", "planar")
-"""Kinds of joints with damping, friction and armature."""
+"""Kinds of joints with dynamics."""
 
 
 def choose_joint_settings(structure: Structure, options: Options) -> dict[str, JointSettings]:
@@ -49,7 +50,7 @@ def set_joint_values(
     singular: Set[str],
     written: Written,
 ) -> Robot:
-    """Return the robot with armature, damping, friction and effort of its joints as exported.
+    """Return the robot with dynamics and effort of its joints as exported.
 
     Joints of massless leaf links get an armature, and joints that move no mass against another.
     Changes of values of the description are reported.
@@ -100,12 +101,12 @@ def _set_values(
     after = replace(before, armature=LEAF_ARMATURE) if has_armature else before
     if settings is None:
         return joint if after is joint.dynamics else replace(joint, dynamics=after)
-    chosen = {name: getattr(settings, name) for name in ("armature", "damping", "friction")}
-    after = replace(after, **{name: value for name, value in chosen.items() if value is not None})
+    after = replace(after, **settings.list_resistance())
     changed = [
-        f"{attribute} {getattr(after, name):g} instead of {getattr(before, name) or 0.0:g}"
-        for name, attribute in (("damping", "damping"), ("friction", "frictionloss"))
-        if (getattr(after, name) or 0.0) != (getattr(before, name) or 0.0)
+        f"{row.mjcf_attribute} {new:g} instead of {old:g}"
+        for row in RESISTANCE
+        for new, old in [[getattr(one, row.name) or 0.0 for one in (after, before)]]
+        if row.path and new != old
     ]
     limit = joint.limit
     if settings.force_range is not None:

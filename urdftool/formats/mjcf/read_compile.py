@@ -15,7 +15,7 @@ from typing import Any
 from ...dependencies import Dependencies
 from ...errors import SourceError
 from ...limited import Limits, open_no_files
-from ...model.settings import SURFACE_OF_MUJOCO
+from ...model.settings import RESISTANCE, SURFACE_OF_MUJOCO
 from ...model.world_settings import OF_MUJOCO
 from ...workspace import Workspace
 from .read_assets import read_assets
@@ -211,7 +211,7 @@ def _list_joints(spec: Any, model: Any, mujoco: Any) -> list[Row]:
     for i, joint in enumerate(_sort_by_id(spec.joints)):
         row = {**_make_row(joint), **_list_values(model, "jnt", i, names)}
         row["type"] = _get_enum_name(mujoco.mjtJoint(model.jnt_type[i]), "mjJNT_")
-        row |= _list_values(model, "dof", row["dofadr"], ("damping", "frictionloss", "armature"))
+        row |= _list_values(model, "dof", row["dofadr"], [r.mjcf_attribute for r in RESISTANCE])
         for kind, end in (("jnt", "limit"), ("dof", "friction")):
             number = i if kind == "jnt" else row["dofadr"]
             soft = _list_values(model, kind, number, ("solref", "solimp"))

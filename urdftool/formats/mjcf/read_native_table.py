@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from ...model.settings import ALL_OF_JOINTS, ALL_SURFACE, RESISTANCE
+
 _PLACED = ("pos", "quat", "euler", "axisangle", "xyaxes", "zaxis", "fromto")
 
 KINDS = {
@@ -83,16 +85,15 @@ HELD_VALUES = {
 READ = {
     "body": (*_PLACED, "name", "childclass", "mocap", "gravcomp"),
     "joint": (
-        *("name", "class", "type", "pos", "axis", "range", "limited", "damping", "frictionloss"),
-        *("stiffness", "springref", "springdamper", "armature", "ref", "margin", "solreflimit"),
-        *("solimplimit", "solreffriction", "solimpfriction", "actuatorfrcrange"),
-        *("actuatorfrclimited", "actuatorgravcomp", "align"),
+        *("name", "class", "type", "pos", "axis", "range", "limited", "springdamper", "ref"),
+        *("actuatorfrcrange", "actuatorfrclimited", "align"),
+        *(row.mjcf_attribute for row in (*RESISTANCE, *ALL_OF_JOINTS) if row.mjcf),
     ),
     "geom": (
         *_PLACED,
         *("name", "class", "type", "size", "mass", "density", "mesh", "material", "rgba"),
-        *("contype", "conaffinity", "condim", "friction", "solref", "solimp", "solmix", "margin"),
-        *("gap", "group", "priority", "shellinertia", "fitscale", "hfield"),
+        *("group", "shellinertia", "fitscale", "hfield"),
+        *(row.mjcf_attribute for row in ALL_SURFACE if row.mjcf),
     ),
     "site": (*_PLACED, "name", "class"),
     "camera": (*_PLACED, "name", "class", "fovy", "resolution", "mode", "target"),

@@ -28,7 +28,7 @@ from ...model.mechanism import Base, Frame
 from ...model.part import ZERO
 from ...model.pose import IDENTITY, Pose, get_origin_at
 from ...model.provenance import Written
-from ...model.settings import JOINTS_OF_MUJOCO, LINKS_OF_MUJOCO, Settings, Value
+from ...model.settings import JOINTS_OF_MUJOCO, LINKS_OF_MUJOCO, RESISTANCE, Settings, Value
 from ...model.world import WORLD
 from ..reading import take_name
 from .read_compile import Row
@@ -187,7 +187,7 @@ def _read_joint(context: Context, row: Row, number: int, parent: str, child: str
 
 def _report_dynamics(context: Context, row: Row) -> None:
     """Report the dynamics of a free joint, which the robot does not hold."""
-    if any(row[name] for name in ("damping", "frictionloss", "armature")):
+    if any(row[one.mjcf_attribute] for one in RESISTANCE):
         text = "damping, friction and armature of free joints are not read"
         context.losses.add("base-dynamics", text, row["name"], _place(context, row).place)
 
@@ -213,8 +213,8 @@ def _read_dynamics(context: Context, row: Row, written: Written) -> Dynamics | N
     if row["poly"]:
         text = "damping that is not proportional to velocity is not read"
         context.losses.add("damping", text, row["name"], written.place)
-    values = [row[name] or None for name in ("damping", "frictionloss", "armature")]
-    return Dynamics(written, *values) if any(values) else None
+    values = {one.name: row[one.mjcf_attribute] or None for one in RESISTANCE}
+    return Dynamics(written, **values) if any(values.values()) else None
 
 
 def _read_spring(row: Row, written: Written) -> Settings:

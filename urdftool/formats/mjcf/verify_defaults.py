@@ -8,6 +8,7 @@ from collections.abc import Collection
 import numpy as np
 
 from ...compare.check import Check
+from ...model.settings import RESISTANCE
 from .compiled import Compiled
 
 EXACT = 1e-9
@@ -64,11 +65,11 @@ KINDS = {
 
 
 def _compare_free_joints(compiled: Compiled, check: Check) -> None:
-    """Compare armature, damping and friction of free joints, which URDF does not have."""
+    """Compare the dynamics of free joints, which URDF does not have."""
     model = compiled.model
     for joint in range(model.njnt):
         if int(model.jnt_type[joint]) == int(compiled.mujoco.mjtJoint.mjJNT_FREE):
             dofs = slice(int(model.jnt_dofadr[joint]), int(model.jnt_dofadr[joint]) + 6)
-            for name in ("armature", "damping", "frictionloss"):
+            for name in (row.mjcf_attribute for row in RESISTANCE):
                 off = float(np.max(abs(getattr(model, f"dof_{name}")[dofs])))
                 check.compare(off, f"{name} of free joint '{compiled.name('JOINT', joint)}'")

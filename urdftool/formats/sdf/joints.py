@@ -7,6 +7,7 @@ import math
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Vector
 from ...model.pose import compute_cross, compute_norm
+from ...model.settings import RESISTANCE
 from ..common.actuator_config import JointSettings
 from ..common.missing_bounds import explain_missing_bounds
 from ..common.numbers import format_numbers_text, number_text
@@ -18,7 +19,7 @@ from .native import merge_native
 from .pose import set_pose
 from .sensors import add_joint_sensors
 from .translation import Translation
-from .xml import Node, add, append_comment
+from .xml import Node, add, append_comment, get_or_create
 
 SDF_TYPES = {
     "revolute": "revolute",
@@ -79,16 +80,11 @@ def _add_axis(node: Node, t: Translation, part: Joint) -> None:
     limit = add(axis, "limit")
     _add_bounds(limit, t, part)
     _set_most(limit, t, part)
-    settings = t.settings.get(part.name, JointSettings())
-    found = {
-        name: getattr(part.dynamics, name, None) if chosen is None else chosen
-        for name, chosen in (("damping", settings.damping), ("friction", settings.friction))
-    }
-    if any(value is not None for value in found.values()):
-        made = add(axis, "dynamics")
-        for name, value in found.items():
-            if value is not None:
-                add(made, name, number_text(value))
+    chosen = t.settings.get(part.name, JointSettings()).list_resistance()
+    for row in RESISTANCE:
+        value = chosen.get(row.name, getattr(part.dynamics, row.name, None))
+        if row.path and value is not None:
+            add(get_or_create(axis, "dynamics"), row.name, number_text(value))
     _add_mimic(axis, t, part)
 
 

@@ -17,7 +17,7 @@ from ...model.pose import IDENTITY, Pose, get_origin_at, rotate
 from ...model.provenance import Written
 from ...model.read_settings import read_sdf_settings
 from ...model.sensors import read_sensor
-from ...model.settings import OF_JOINTS, Settings
+from ...model.settings import OF_JOINTS, RESISTANCE_OF_URDF, Settings
 from ...model.world import WORLD
 from ...source.document import Element
 from .read_links import Context, normalize_direction
@@ -266,11 +266,8 @@ def _read_dynamics(element: Element | None) -> Dynamics | None:
     holder = None if element is None else element.find_child("dynamics")
     if holder is None:
         return None
-    return Dynamics(
-        Written(holder.place),
-        None if holder.find_child("damping") is None else number(holder, "damping", 0.0),
-        None if holder.find_child("friction") is None else number(holder, "friction", 0.0),
-    )
+    written = [name for name in RESISTANCE_OF_URDF if holder.find_child(name) is not None]
+    return Dynamics(Written(holder.place), **{name: number(holder, name, 0.0) for name in written})
 
 
 def _read_pitch(found: Found) -> float:

@@ -11,6 +11,7 @@ from ...diagnostic import Severity
 from ...model.drawn import list_drawn_once
 from ...model.elements import BALL_TYPES, Collision, Joint, Link, Origin, Robot, Visual
 from ...model.mechanism import Frame
+from ...model.settings import RESISTANCE_OF_URDF
 from ..common.directory import mark
 from ..common.force_fallbacks import (
     FATAL,
@@ -134,10 +135,9 @@ def _add_joint(t: Translation, joint: Joint) -> None:
     if joint.axis is not None and kind != "floating":
         add(node, "axis", xyz=format_numbers(*joint.axis.xyz))
     _add_limit(t, node, joint, kind)
-    dynamics = joint.dynamics
-    if dynamics is not None and (dynamics.damping is not None or dynamics.friction is not None):
-        written = {"damping": dynamics.damping, "friction": dynamics.friction}
-        add(node, "dynamics", **{n: number_text(v) for n, v in written.items() if v is not None})
+    values = {name: getattr(joint.dynamics, name, None) for name in RESISTANCE_OF_URDF}
+    if written := {n: number_text(v) for n, v in values.items() if v is not None}:
+        add(node, "dynamics", **written)
     if joint.mimic is not None:
         m = joint.mimic
         leader = t.names.joints.get(m.joint, m.joint)

@@ -11,6 +11,7 @@ from ...diagnostic import Severity
 from ...model.drives import list_servo_joints
 from ...model.elements import Joint
 from ...model.mechanism import JointActuator
+from ...model.settings import RESISTANCE, RESISTANCE_OF_URDF
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..common.described_gains import list_described_gains
 from ..common.missing_bounds import explain_negative_effort
@@ -100,9 +101,7 @@ def get_own_values(joint: Joint) -> JointValues:
     return JointValues(
         effort=None if effort is None or not math.isfinite(effort) else abs(effort),
         velocity=None if not velocity or not math.isfinite(velocity) else abs(velocity),
-        friction=joint.get_resistance("friction"),
-        damping=joint.get_resistance("damping"),
-        armature=joint.get_resistance("armature"),
+        **{row.name: joint.get_resistance(row.name) for row in RESISTANCE},
     )
 
 
@@ -112,16 +111,12 @@ def _choose(
     kp, kd = gains
     plain = replace(get_own_values(joint), kp=kp, kd=kd)
     force = settings.force_range
-    own = JointSettings(kp, kd, plain.armature, plain.damping, plain.friction)
-    chosen = settings.override(own)
-    values = JointValues(
-        plain.effort if force is None else max(map(abs, force)),
-        plain.velocity,
-        chosen.friction or 0.0,
-        chosen.damping or 0.0,
-        chosen.armature or 0.0,
-        chosen.kp or 0.0,
-        chosen.kd or 0.0,
+    values = replace(
+        plain,
+        effort=plain.effort if force is None else max(map(abs, force)),
+        kp=kp if settings.kp is None else settings.kp,
+        kd=kd if settings.kd is None else settings.kd,
+        **settings.list_resistance(),
     )
     _report_changes(joint, plain, values, written)
     if joint.limit is not None and (joint.limit.effort or 0) < 0:
@@ -170,7 +165,7 @@ def _report_changes(
     """Report values of the description that the actuator file replaces."""
     changed = [
         f"{name} {new:g} instead of {'none' if old is None else f'{old:g}'}"
-        for name in ("effort", "friction", "damping")
+        for name in ("effort", *RESISTANCE_OF_URDF)
         if (old := getattr(before, name)) != (new := getattr(after, name))
     ]
     if changed:

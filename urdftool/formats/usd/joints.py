@@ -20,6 +20,7 @@ from ...model.pose import (
     compute_norm,
     rotation_from_quaternion,
 )
+from ...model.settings import RESISTANCE
 from ..common.missing_bounds import explain_missing_bounds
 from ..written import Written
 from .bodies import Bodies
@@ -171,7 +172,7 @@ class JointWriter:
                 apply(prim, f"PhysicsJointStateAPI:{drive_name(joint)}")
 
     def _write_dynamics(self, prim: Usd.Prim, joint: Joint) -> None:
-        """Write velocity limit, friction, damping and armature for Newton and PhysX."""
+        """Write velocity limit and dynamics for Newton and PhysX."""
         values = _convert_values(joint, self.values[joint.name])
         if joint.limit is not None and joint.limit.velocity == 0:
             self.written.report_loss(
@@ -282,10 +283,11 @@ def _convert_values(joint: Joint, values: JointValues) -> dict[str, float]:
     """Return the values of Newton's schema that a joint has, by name, in its units."""
     found = {
         "velocityLimit": convert_position(joint, values.velocity or 0.0),
-        "friction": values.friction,
-        "damping": convert_gain(joint, values.damping),
-        "armature": values.armature,
     }
+    for row in RESISTANCE:
+        value = getattr(values, row.name)
+        name = row.usd.partition(":")[2]
+        found[name] = convert_gain(joint, value) if "/rad" in row.unit else value
     return {name: value for name, value in found.items() if value}
 
 

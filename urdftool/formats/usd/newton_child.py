@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ...model.pose import rotation_from_quaternion
+from ...model.settings import RESISTANCE
 
 
 def read_stage(path: str, configurations: Sequence[dict[str, float]]) -> dict[str, Any]:
@@ -68,7 +69,7 @@ def _list_joints(newton: Any, builder: Any) -> dict[str, dict[str, Any]]:
         if last - first == 1:
             for name in (
                 *("limit_lower", "limit_upper", "effort_limit", "velocity_limit"),
-                *("friction", "damping", "armature", "target_ke", "target_kd"),
+                *("target_ke", "target_kd", *(row.name for row in RESISTANCE)),
             ):
                 joint[name] = float(getattr(builder, f"joint_{name}")[first])
         leader = builder.joint_mimic_joint[index]

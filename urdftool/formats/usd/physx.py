@@ -11,18 +11,15 @@ from collections.abc import Mapping
 
 from pxr import Sdf, Usd
 
+from ...model.settings import RESISTANCE
 from .stage import apply, set_targets, set_value
 
-_AXIS_NAMES = {
-    "velocityLimit": ("maxJointVelocity",),
-    "friction": ("staticFrictionEffort", "dynamicFrictionEffort"),
-    "damping": ("viscousFrictionCoefficient",),
-    "armature": ("armature",),
+_NAMES = {
+    "velocityLimit": ("physxJointAxis:*:maxJointVelocity", "physxJoint:maxJointVelocity"),
+    **{row.usd.partition(":")[2]: row.physx for row in RESISTANCE},
 }
-"""Attributes of ``PhysxJointAxisAPI`` for each of ``NewtonJointAPI``."""
-
-_JOINT_NAMES = {"velocityLimit": "maxJointVelocity", "armature": "armature"}
-"""Attributes of ``PhysxJointAPI``, which releases before ``PhysxJointAxisAPI`` read."""
+"""Attributes of PhysX for each of ``NewtonJointAPI``; releases before ``PhysxJointAxisAPI`` read
+those of ``PhysxJointAPI``."""
 
 
 def write_physx_values(
@@ -38,13 +35,12 @@ def write_physx_values(
     """
     apply(prim, f"PhysxJointAxisAPI:{drive}")
     for name, value in values.items():
-        for physx in _AXIS_NAMES[name]:
-            set_value(prim, f"physxJointAxis:{drive}:{physx}", "float", value)
-    found = {_JOINT_NAMES[n]: value for n, value in values.items() if n in _JOINT_NAMES}
-    if old_names and found:
-        apply(prim, "PhysxJointAPI")
-        for name, value in found.items():
-            set_value(prim, f"physxJoint:{name}", "float", value)
+        for attribute in _NAMES[name]:
+            is_old = attribute.startswith("physxJoint:")
+            if is_old and old_names:
+                apply(prim, "PhysxJointAPI")
+            if old_names or not is_old:
+                set_value(prim, attribute.replace("*", drive), "float", value)
 
 
 def write_physx_mimic(prim: Usd.Prim, leader: Sdf.Path, gearing: float, offset: float) -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
-from ...model.elements import Dynamics, Joint, Limit, Robot
+from ...model.elements import Joint, Limit, Robot
 from ...model.mechanism import Base, Configuration, ContactExclusion, JointActuator
+from ...model.settings import RESISTANCE
 from .bodies import Bodies
 from .joint_values import JointValues, get_own_values
 
@@ -42,12 +43,11 @@ def _set_values(joint: Joint, values: JointValues | None) -> Joint:
     if values is None:
         return joint
     own = get_own_values(joint)
-    changed = {name: getattr(values, name) for name in ("damping", "friction", "armature")
-               if getattr(values, name) != getattr(own, name)}  # fmt: skip
-    if changed:
-        joint = replace(
-            joint, dynamics=replace(joint.dynamics or Dynamics(joint.provenance), **changed)
-        )
+    joint = joint.replace_resistance({
+        row.name: getattr(values, row.name)
+        for row in RESISTANCE
+        if getattr(values, row.name) != getattr(own, row.name)
+    })  # fmt: skip
     if values.effort != own.effort:
         limit = replace(joint.limit or Limit(joint.provenance), effort=values.effort)
         joint = replace(joint, limit=limit)

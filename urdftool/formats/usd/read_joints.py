@@ -11,6 +11,7 @@ from pxr import Usd, UsdPhysics
 from ...diagnostic import Severity
 from ...model.elements import Dynamics, Joint, Limit, Mimic, Vector
 from ...model.mechanism import JointActuator
+from ...model.settings import RESISTANCE
 from .read_stage import Context, convert_float, get_targets, has_schema
 
 _AXES: dict[str, Vector] = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
@@ -189,30 +190,17 @@ def _read_effort(context: Context, prim: Usd.Prim, units: Units) -> float | None
 
 
 def _read_dynamics(context: Context, prim: Usd.Prim, units: Units) -> Dynamics | None:
-    axis = f"physxJointAxis:{units.name}"
-
-    def read(others: tuple[str, ...], unit: float, mujoco: str, unit_there: float) -> float | None:
-        value = context.get_value(prim, *others)
+    values: dict[str, float] = {}
+    known = {"friction": units.force, "armature": units.inertia}
+    for row in RESISTANCE:
+        names = (row.usd, *(name.replace("*", units.name) for name in row.physx))
+        value, unit = context.get_value(prim, *names), known.get(row.name, units.rate)
+        if value is None:  # of MuJoCo's schema, whose rate is by radian
+            value = context.get_value(prim, f"mjc:{row.mjcf_attribute}")
+            unit = known.get(row.name, units.by_radian)
         if value is not None:
-            return convert_float(value, unit)
-        value = context.get_value(prim, mujoco)
-        return None if value is None else convert_float(value, unit_there)
-
-    damping = read(
-        ("newton:damping", f"{axis}:viscousFrictionCoefficient"),
-        *(units.rate, "mjc:damping", units.by_radian),
-    )
-    friction = read(
-        ("newton:friction", f"{axis}:staticFrictionEffort"),
-        *(units.force, "mjc:frictionloss", units.force),
-    )
-    armature = read(
-        ("newton:armature", f"{axis}:armature", "physxJoint:armature"),
-        *(units.inertia, "mjc:armature", units.inertia),
-    )
-    if damping is None and friction is None and armature is None:
-        return None
-    return Dynamics(context.get_written(prim), damping, friction, armature)
+            values[row.name] = convert_float(value, unit)
+    return Dynamics(context.get_written(prim), **values) if values else None
 
 
 def _read_mimic(context: Context, prim: Usd.Prim, units: Units) -> Mimic | None:

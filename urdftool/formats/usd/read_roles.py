@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from pxr import Usd
 
+from ...model.settings import RESISTANCE, Setting
 from .read_joints import JointKind, Units, find_units, has_drive
 from .read_links import find_contradicting_inertia
 from .read_stage import ROUNDING, Context
@@ -118,14 +119,17 @@ def _list_groups(units: Units, *, is_driven: bool) -> tuple[Repeated, ...]:
     effort = {f"{drive}:maxForce": 1.0} if is_driven else {}
     axis, there = f"physxJointAxis:{units.name}", units.by_radian / units.rate
     velocity = ("newton:velocityLimit", f"{axis}:maxJointVelocity", "physxJoint:maxJointVelocity")
-    still, moving = (f"{axis}:{kind}FrictionEffort" for kind in ("static", "dynamic"))
-    friction = ("newton:friction", still, moving, "mjc:frictionloss")
-    damping = ("newton:damping", f"{axis}:viscousFrictionCoefficient")
-    armature = ("newton:armature", f"{axis}:armature", "physxJoint:armature", "mjc:armature")
     ends = {"mjc:actuatorfrcrange:min": -1.0, "mjc:actuatorfrcrange:max": 1.0}
     return (
-        *(Repeated(dict.fromkeys(names, 1.0)) for names in (velocity, friction, armature)),
-        Repeated({**dict.fromkeys(damping, 1.0), "mjc:damping": there}),
+        Repeated(dict.fromkeys(velocity, 1.0)),
+        *(_list_resistance(row, units.name, there) for row in RESISTANCE),
         Repeated({**effort, **ends}),
         *(Repeated({gain: 1.0}) for gain in gains),
     )
+
+
+def _list_resistance(row: Setting, axis: str, rate: float) -> Repeated:
+    """Return the attributes of a value of the dynamics; a rate of MuJoCo's schema is by radian."""
+    names = (row.usd, *(name.replace("*", axis) for name in row.physx))
+    there = rate if "/rad" in row.unit else 1.0
+    return Repeated({**dict.fromkeys(names, 1.0), f"mjc:{row.mjcf_attribute}": there})

@@ -7,6 +7,7 @@ import re
 from pxr import Sdf, Usd, UsdPhysics
 
 from ...diagnostic import Severity
+from ...model.settings import RESISTANCE
 from .read_native import has_default
 from .read_stage import Context
 
@@ -15,13 +16,16 @@ _NAMESPACES = re.compile(r"(physics|physx\w*|newton|mjc|drive|limit|state|urdf|o
 _READ = re.compile(
     r"physics:(mass|centerOfMass|diagonalInertia|principalAxes|rigidBodyEnabled|collisionEnabled|"
     r"approximation|axis|(lower|upper)Limit|local(Pos|Rot)[01]|jointEnabled|excludeFromArticulation)"
-    r"|newton:(inertia|velocityLimit|damping|friction|armature|mimic(Coef[01]|Enabled)|maxHullVertices)"
+    r"|newton:(inertia|velocityLimit|mimic(Coef[01]|Enabled)|maxHullVertices)"
     r"|drive:\w+:physics:(maxForce|stiffness|damping)|limit:\w+:physics:(low|high)"
-    r"|physxJointAxis:\w+:(maxJointVelocity|viscousFrictionCoefficient|armature|"
-    r"(static|dynamic)FrictionEffort)"
-    r"|physxJoint:(maxJointVelocity|armature)|physxMimicJoint:\w+:(gearing|offset)"
+    r"|physxJointAxis:\w+:maxJointVelocity|physxJoint:maxJointVelocity|physxMimicJoint:\w+:(gearing|offset)"
     r"|physics:((static|dynamic)Friction|restitution)"
-    r"|mjc:(damping|frictionloss|armature|coef[01]|actuatorfrc(range:(min|max)|limited))"
+    r"|mjc:(coef[01]|actuatorfrc(range:(min|max)|limited))|"
+    + "|".join(
+        name.replace("*", r"\w+")
+        for row in RESISTANCE
+        for name in (row.usd, *row.physx, f"mjc:{row.mjcf_attribute}")
+    )
 )
 """Names of the attributes that the reader uses."""
 

@@ -18,6 +18,7 @@ from ...mechanics.reference import Mechanics
 from ...model.elements import Joint, Robot
 from ...model.kinematics import add_mimic_positions, get_limits
 from ...model.pose import rotation_from_quaternion
+from ...model.settings import RESISTANCE
 from ..common.losses import DeclaredLosses
 from .declared_losses import INERTIA, MASS, TREE
 from .verify_newton_shapes import compare_colliders
@@ -29,7 +30,6 @@ from .verify_newton_source import (
     get_effort,
     get_gains,
     get_inertial,
-    get_resistance,
     make_source,
     resolve_mimic,
 )
@@ -176,16 +176,16 @@ def _get_values(
 ) -> dict[str, tuple[float, float]]:
     lower, upper = get_limits(joint)
     velocity = joint.limit.velocity if joint.limit is not None else None
-    friction, damping, armature = get_resistance(joint)
     kp, kd = get_gains(source.robot, joint)
     return {
         "lower limit": (_bound(lower), _bound(read["limit_lower"])),
         "upper limit": (_bound(upper), _bound(read["limit_upper"])),
         "effort": (get_effort(joint), _bound(read["effort_limit"])),
         "velocity": (_NO_VELOCITY if velocity is None else abs(velocity), read["velocity_limit"]),
-        "friction": (friction, read["friction"]),
-        "damping": (damping, read["damping"]),
-        "armature": (armature, read["armature"]),
+        **{
+            row.name: (getattr(joint.dynamics, row.name, None) or 0.0, read[row.name])
+            for row in RESISTANCE
+        },
         "stiffness of the drive": (kp, read["target_ke"]),
         "damping of the drive": (kd, read["target_kd"]),
     }

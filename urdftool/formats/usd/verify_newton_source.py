@@ -115,14 +115,6 @@ def get_effort(joint: Joint) -> float:
     return np.inf if effort is None else abs(effort)
 
 
-def get_resistance(joint: Joint) -> tuple[float, float, float]:
-    """Return friction, damping and armature of a joint."""
-    own = joint.dynamics
-    if own is None:
-        return 0.0, 0.0, 0.0
-    return own.friction or 0.0, own.damping or 0.0, own.armature or 0.0
-
-
 def get_gains(robot: Robot, joint: Joint) -> tuple[float, float]:
     """Return stiffness and damping of the drive of a joint [per rad or m]."""
     biases = [one.bias for one in robot.joint_actuators if one.joint == joint.name]

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ...model.actuation import find_actuated_joints, find_measured_joints, is_passive
 from ...model.elements import Joint, Limit, Robot
 from ...model.read import number
+from ...model.settings import RESISTANCE_OF_URDF
 from ..fix import (
     FixContext,
     Proposal,
@@ -297,7 +298,8 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
         dynamics = joint.dynamics
         if dynamics is None:
             continue
-        for name, value in (("damping", dynamics.damping), ("friction", dynamics.friction)):
+        for name in RESISTANCE_OF_URDF:
+            value = getattr(dynamics, name)
             if value is not None and value < 0:
                 yield Problem(
                     joint,
@@ -331,7 +333,7 @@ def empty_dynamics(robot: Robot) -> Iterator[Problem]:
         if joint.dynamics is None:
             continue
         element = joint.dynamics.element
-        if element.attributes.keys() & {"damping", "friction"} or element.children:
+        if not element.attributes.keys().isdisjoint(RESISTANCE_OF_URDF) or element.children:
             continue
         if not find_misspelled_attributes(element):
             yield Problem(
@@ -393,8 +395,9 @@ def write_dynamics_attributes(problem: Problem, context: FixContext) -> Proposal
     written = {child.tag: " ".join(child.text.split()) for child in element.children}
     if not written or len(written) < len(element.children) or element.attributes:
         return None
-    known = {"damping", "friction"}
-    if not written.keys() <= known or any(number(text) is None for text in written.values()):
+    if not written.keys() <= {*RESISTANCE_OF_URDF} or any(
+        number(text) is None for text in written.values()
+    ):
         return None
     line = "<dynamics " + " ".join(f'{k}="{v}"' for k, v in written.items()) + "/>"
     return unsafe(f"write {line}", replace_element(element, (line,)))

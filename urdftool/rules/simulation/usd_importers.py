@@ -10,6 +10,7 @@ from ...mechanics.spatial_inertia import link_inertia
 from ...mechanics.tensor import compute_principal_moments
 from ...model.elements import Capsule, Robot
 from ...model.kinematics import get_limits
+from ...model.settings import RESISTANCE_OF_URDF
 from ...source.description import Description
 from ..gazebo.contact import get_contact_role
 from ..rule import INFO, WARNING, Problem, rule
@@ -90,7 +91,7 @@ def isaac_drops_dynamics(robot: Robot) -> Iterator[Problem]:
     """
     for joint in robot.joints:
         dynamics = joint.dynamics
-        if dynamics is not None and (dynamics.friction or dynamics.damping):
+        if dynamics is not None and any(getattr(dynamics, name) for name in RESISTANCE_OF_URDF):
             yield Problem(
                 joint,
                 f"friction and damping of joint '{joint.name}' are dropped by the importer of "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ...model.read import number, parse_numbers
+from ...model.settings import RESISTANCE_OF_URDF
 from ...source.document import Element
 from ..fix import (
     Change,
@@ -48,15 +49,15 @@ def propose_urdf_spelling(element: Element, parent: Element) -> Proposal | None:
     if tag == "pose" and not element.children:
         return _convert_pose(element, parent, text)
     if inside == "joint" and tag == "joint_properties":
-        known = {"damping", "friction"}
+        known = {*RESISTANCE_OF_URDF}
         if parent.find_child("dynamics") is None and known & element.attributes.keys() <= known:
             extra = [remove_attribute(element, n) for n in element.attributes if n not in known]
             if known & element.attributes.keys():
                 return unsafe("write <dynamics>", *extra, rename_element(element, "dynamics"))
         return None
-    if inside == "joint" and tag in ("damping", "friction") and not element.attributes:
+    if inside == "joint" and tag in RESISTANCE_OF_URDF and not element.attributes:
         if number(text) is not None and parent.find_child("dynamics") is None:
-            if sum(child.tag in ("damping", "friction") for child in parent.children) == 1:
+            if sum(child.tag in RESISTANCE_OF_URDF for child in parent.children) == 1:
                 return unsafe(
                     f'write <dynamics {tag}="{text}"/>',
                     replace_element(element, (f'<dynamics {tag}="{text}"/>',)),

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ...model.read import number, parse_numbers
+from ...model.settings import RESISTANCE_OF_URDF
 from ...source.description import Description
 from ...source.document import Element
 from ..fix import (
@@ -286,7 +287,7 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
                 for n in _iterate_unknown_attributes(element, known)
                 if _is_unsuggested(element, n)
                 and number(element.get(n)) != 0
-                and not (n in _OF_FRANKA and {"damping", "friction"} <= element.attributes.keys())
+                and not (n in _OF_FRANKA and {*RESISTANCE_OF_URDF} <= element.attributes.keys())
             ]
             for severity in (WARNING, INFO):
                 is_info = severity is INFO

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from ...model.elements import Robot
+from ...model.settings import RESISTANCE_OF_URDF
 from ...source.document import Element
 
 
@@ -73,7 +74,7 @@ VOCABULARY: dict[str, ElementType] = {
             "lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"
         )
     ),
-    "dynamics": ElementType(numbers=_count_one("damping", "friction")),
+    "dynamics": ElementType(numbers=_count_one(*RESISTANCE_OF_URDF)),
     "mimic": ElementType(numbers=_count_one("multiplier", "offset"), words=("joint",)),
     "safety_controller": ElementType(
         numbers=_count_one("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")

@@ -142,7 +142,7 @@ class Stillness:
     """Detects when a robot is at rest, from positions of samples instead of velocities.
 
     It is if its positions in a window are equal within bounds, and would stay so: a slow motion
-    that does not slow down, such as the first second of a fall, is no rest.
+    that does not slow down, such as the first second of a fall, is not rest.
     """
 
     def __init__(self, bodies: RigidBodyModel, interval: float, thresholds: Thresholds) -> None:

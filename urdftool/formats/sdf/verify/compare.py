@@ -12,11 +12,12 @@ from ....compare.proof import Claims, prove
 from ....compare.rows import ROWS as ROWS_OF_ROBOTS
 from ....compare.rows import narrow_tolerances
 from ....errors import UrdftoolError
-from ....model.elements import Dynamics, Joint, Limit, Robot
+from ....model.elements import Joint, Limit, Robot
 from ....model.load import read_again
 from ....model.mechanism import MountedSensor, NativeElement
 from ....model.native import AROUND
 from ....model.sensors import get_kind
+from ....model.settings import RESISTANCE
 from ....model.world import WORLD, add_gazebo_base, weld_base
 from ...common.actuator_config import JointSettings, read_actuator_config
 from ...common.force_fallbacks import drop_invalid_parts
@@ -149,14 +150,11 @@ def _cast_on_gpu(sensor: MountedSensor) -> MountedSensor:
 
 def _set(joint: Joint, settings: JointSettings) -> Joint:
     """Replace values of the description by those of the user."""
-    dynamics, limit = joint.dynamics or Dynamics(None), joint.limit or Limit(None)
-    if settings.damping is not None:
-        dynamics = replace(dynamics, damping=settings.damping)
-    if settings.friction is not None:
-        dynamics = replace(dynamics, friction=settings.friction)
+    limit = joint.limit or Limit(None)
     if settings.force_range is not None:
         limit = replace(limit, effort=max(abs(bound) for bound in settings.force_range))
-    return replace(joint, dynamics=dynamics, limit=limit)
+    resistance = settings.list_resistance(row for row in RESISTANCE if row.path)
+    return replace(joint, limit=limit).replace_resistance(resistance)
 
 
 def compare(pair: Pair) -> list[Check]:

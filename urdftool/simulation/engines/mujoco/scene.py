@@ -8,6 +8,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, ElementTree, SubElement
 
 from ....model.elements import Inertial, Joint, Link, Robot
+from ....model.settings import RESISTANCE_OF_URDF
 from ...rigid_bodies import ROOTED, RigidBodyModel
 from ...settings import Settings
 from ..base import ExportMjcf
@@ -86,14 +87,9 @@ def get_moving_name(name: str) -> str:
 
 
 def _set_without_negative_losses(joint: Joint) -> Joint:
-    """Set damping and friction below zero to zero, which would drive a joint."""
-    loss = joint.dynamics
-    if loss is None:
-        return joint
-    damping, friction = (
-        None if part is None else max(0.0, part) for part in (loss.damping, loss.friction)
-    )
-    return replace(joint, dynamics=replace(loss, damping=damping, friction=friction))
+    """Set values of the dynamics below zero to zero, which would drive a joint."""
+    values = {name: getattr(joint.dynamics, name, None) for name in RESISTANCE_OF_URDF}
+    return joint.replace_resistance({n: 0.0 for n, value in values.items() if (value or 0.0) < 0})
 
 
 def _make_renamed_ends(joint: Joint, name: str) -> Joint:
