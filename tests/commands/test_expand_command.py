@@ -8,6 +8,7 @@ import jsonschema
 import pytest
 
 from tests.conftest import ROOT, XACRO
+from urdftool.report.expansion import make_rule
 
 ARM = """<xacro:arg name="prefix" default=""/>
 <xacro:include filename="macros.xacro"/>
@@ -68,6 +69,52 @@ def test_depfile_escapes_what_make_would_read(urdftool, xacro_file, tmp_path):
     path = xacro_file("my robot $1 #2.xacro", "<link name='a'/>")
     urdftool("expand", path, "-o", "out.urdf", "--depfile", "out.d")
     assert (tmp_path / "out.d").read_text() == r"out.urdf: my\ robot\ $$1\ \#2.xacro" + "\n"
+
+
+NAMES = [
+    "a=b",
+    "a%b",
+    "a&",
+    "a:b",
+    "a:",
+    "a?b",
+    "a*",
+    "a[x]b",
+    "a'b",
+    "a~",
+    "a$(b)",
+    "`a`",
+    "#",
+    "<a>",
+]
+
+
+def test_make_sees_a_change_of_each_file_that_a_rule_can_name(write, tmp_path):
+    for name in ["r", *NAMES, "axb"]:  # make may take the last for a?b and a[x]b too
+        write(name, "")
+        os.utime(name, (1000, 1000))
+    write("o.urdf", "")
+    write("o.d", make_rule("o.urdf", ["a=b", "r", *NAMES[1:]]))
+    write("Makefile", "o.urdf: ; @echo made\n-include o.d\n")
+    made, future = [], (tmp_path / "o.urdf").stat().st_mtime + 10
+    for name in ["r", *NAMES]:
+        os.utime(name, (future, future))
+        done = subprocess.run(["make", "-s"], capture_output=True, text=True)
+        os.utime(name, (1000, 1000))
+        if done.stdout == "made\n":
+            made.append(name)
+    assert made == ["r", *NAMES]
+
+
+def test_what_a_make_rule_cannot_name_is_a_warning(urdftool, xacro_file):
+    xacro_file("a;b.xacro", "<link name='a'/>")
+    path = xacro_file("r.xacro", '<xacro:include filename="a;b.xacro"/>')
+    done = urdftool("expand", path, "-o", "o.urdf", "--depfile", "o.d")
+    assert done.code == 0
+    assert "o.d: warning: a make rule cannot name 'a;b.xacro'" in done.err
+    refused = urdftool("expand", path, "-o", "o;id.urdf", "--depfile", "o.d")
+    assert refused.code == 2
+    assert "cannot begin with the name 'o;id.urdf'" in refused.err
 
 
 def test_list_args(urdftool, arm):

@@ -67,6 +67,8 @@ def command(
     path, arguments = robot
     if depfile and not output:
         raise click.UsageError("--depfile requires -o OUT, the target of its make rule")
+    if depfile and output and not report.is_target(output):
+        raise click.UsageError(f"--depfile: a make rule cannot begin with the name '{output}'")
     if sum(map(bool, (deps, list_args, check))) > 1:
         raise click.UsageError("--deps, --list-args and --check exclude each other")
     file = read_file(path)
@@ -92,6 +94,9 @@ def command(
     elif not (source_map == "-" and output is None):
         write_result(expansion.text, output, inputs=inputs)
     if depfile and output:
+        for name in report.list_not_in_rule(inputs):
+            reason = f"a make rule cannot name '{name}'; make does not see its changes"
+            console.print_note(f"{depfile}: warning: {reason}")
         write_result(report.make_rule(output, inputs), depfile, inputs=inputs)
     return 0
 

@@ -57,25 +57,42 @@ def format_argument_list(expansion: Expansion) -> str:
     return "".join(f"{a.name}:={a.default}\n" for a in expansion.arguments.values())
 
 
-_SPECIAL = re.compile(r"[\0-\x1f\x7f=%;|&:?*\[\]<>`\"'!~]|\\$")
-"""Characters of names for which make has no escape, or which it interprets."""
+_UNWRITABLE = re.compile(r"[\0-\x1f\x7f;|]|^~|[\\ ]$|\\[ #:*?\[]")
+"""Names for which make has no escape: tried with GNU make 4.3, one character after the other."""
+_NO_TARGET = re.compile(r"[=%]|&$")
+"""Names that make reads as something else where a rule begins."""
+
+
+def list_not_in_rule(files: Iterable[str]) -> list[str]:
+    """Return the files that a make rule cannot name."""
+    files = list(files)
+    if all("=" in name for name in files):  # the first word is read as an assignment
+        return files
+    return [name for name in files if _UNWRITABLE.search(name)]
+
+
+def is_target(name: str) -> bool:
+    """Return whether a make rule can begin with a name."""
+    return not _UNWRITABLE.search(name) and not _NO_TARGET.search(name)
 
 
 def make_rule(target: str, files: Iterable[str]) -> str:
     """Format a make rule by which a target depends on files, with an empty rule for each file.
 
-    With the empty rules, make continues after an include was removed. A file whose name make would
-    interpret is left out.
+    With the empty rules, make continues after an include was removed; it stops where a name
+    has none. Files of `list_not_in_rule` are left out.
     """
-    escaped = [_escape(name) for name in files if _SPECIAL.search(name) is None]
-    rules = "".join(f"\n{name}:\n" for name in escaped[1:])
-    return f"{_escape(target)}: " + " \\\n  ".join(escaped) + "\n" + rules
+    files = list(files)
+    left_out = list_not_in_rule(files)
+    named = sorted((name for name in files if name not in left_out), key=lambda name: "=" in name)
+    rules = "".join(
+        f"\n{_escape(name)}:\n" for name in named if name != files[0] and is_target(name)
+    )
+    return f"{_escape(target)}: " + " \\\n  ".join(map(_escape, named)) + "\n" + rules
 
 
 def _escape(path: str) -> str:
-    for plain, written in (("$", "$$"), ("#", "\\#"), (" ", "\\ ")):
-        path = path.replace(plain, written)
-    return path
+    return re.sub(r"[ #:*?\[]", r"\\\g<0>", path).replace("$", "$$")
 
 
 def make_diff_with_committed(expansion: Expansion, committed: str) -> str:
