@@ -74,7 +74,11 @@ def _find_names(file: SourceFile) -> list[tuple[str, str]]:
 
 
 def get_macro_names(description: Description) -> frozenset[str]:
-    """Get the names of the macros that a description's files define."""
+    """Get the names of the macros that a description's files define, found once for all rules."""
+    return description.memo.get("macro names", lambda: _find_macro_names(description))
+
+
+def _find_macro_names(description: Description) -> frozenset[str]:
     return frozenset(
         name
         for file in description.files
