@@ -2,7 +2,7 @@
 
 import pytest
 
-from urdftool import load
+from urdftool import check, load
 from urdftool.diagnostic import Severity
 from urdftool.rules import get_rule
 
@@ -86,3 +86,46 @@ def test_limits_that_are_not_mirrored(write):
     others = ", ".join(f"'right_leg_{n}_joint' (-1 to 1)" for n in range(1, 4))
     assert found.message.endswith(f"-1 to 1; also {others}")
     assert found.place.line == found.subject.limit.place.line
+
+
+def _list_grouped(path, code):
+    return check(path, select=[code], grouped=True)
+
+
+def _write_joints(count, joint):
+    links = "".join(f"<link name='l{n}'/>" for n in range(count + 1))
+    joints = (joint.format(parent=f"l{n}", child=f"l{n + 1}") for n in range(count))
+    return f"<robot name='r'>{links}{''.join(joints)}</robot>"
+
+
+@pytest.mark.parametrize(("count", "findings"), [(3, 3), (4, 1), (9, 1)])
+def test_many_warnings_of_a_rule_are_one(write, count, findings):
+    joint = (
+        "<joint name='{child}_joint' type='continuous'><parent link='{parent}'/>"
+        "<child link='{child}'/><axis xyz='1 1 0'/></joint>"
+    )
+    found = _list_grouped(write("r.urdf", _write_joints(count, joint)), "axis-not-unit")
+    assert len(found) == findings
+    assert sum(one.count for one in found) == count
+    if findings == 1:
+        assert f"(and {count - 1} more: 'l2_joint', 'l3_joint'" in found[0].message
+
+
+def test_errors_are_each_reported(write):
+    joint = (
+        "<joint name='{child}_joint' type='continuous'><parent link='{parent}'/>"
+        "<child link='{child}'/><axis xyz='0 0 0'/></joint>"
+    )
+    found = _list_grouped(write("r.urdf", _write_joints(5, joint)), "zero-axis")
+    assert {one.severity for one in found} == {Severity.ERROR}
+    assert len(found) == 5
+
+
+def test_a_package_is_missing_once_for_a_repository(write, urdftool):
+    mesh = "<mesh filename='package://lost_description/m.stl'/>"
+    visual = f"<visual><geometry>{mesh}</geometry></visual>"
+    for name in ("a", "b", "c"):
+        write(f"{name}.urdf", f"<robot name='{name}'><link name='l'>{visual}</link></robot>")
+    result = urdftool("lint", ".", "--select", "package-not-found", "--format", "concise")
+    (line,) = (line for line in result.out.splitlines() if "lost_description" in line)
+    assert "'lost_description' is not found, so meshes of 3 robots were not checked" in line

@@ -20,6 +20,14 @@ from .fingerprint import get_fact
 from .merge import sort_findings
 from .outcome import Outcome
 
+FEW = 3
+"""Maximum number of warnings or infos of a rule without grouping that are reported each by itself.
+
+More about one robot are one finding. Errors are each reported. Chosen, no source.
+"""
+
+_OF_ANY_RULE = Group("robot", "", ())
+
 NAMES = 5
 """Maximum number of names in the message of a group; the others are counted. Chosen, no source."""
 
@@ -115,18 +123,28 @@ def _merge_groups(findings: Iterable[Finding], robots: Mapping[Any, int]) -> lis
     groups: dict[Any, list[Finding]] = {}
     for finding in findings:
         groups.setdefault(_get_key(finding, robots), []).append(finding)
-    return [found[0] if len(found) == 1 else _as_one(found) for found in groups.values()]
+    return [
+        one
+        for found in groups.values()
+        for one in ([_as_one(found)] if len(found) >= _get_least(found[0]) else found)
+    ]
+
+
+def _get_least(finding: Finding) -> int:
+    """Return how many findings are at least one group."""
+    return FEW + 1 if finding.group is None else 2
 
 
 def _get_key(finding: Finding, robots: Mapping[Any, int]) -> Any:
     """Return what the findings of one group have in common."""
-    if finding.group is None:
+    group = finding.group or _OF_ANY_RULE
+    if finding.group is None and finding.severity is Severity.ERROR:
         return id(finding)
     where: Any = robots.get(_make_identity(finding), 0)
-    if finding.group.by == "repository":
+    if group.by == "repository":
         where = _find_repository(os.path.dirname(os.path.abspath(finding.location.path)))
     effects = tuple(finding.effects.items())
-    return finding.code, finding.severity, finding.group.alike, effects, finding.variants, where
+    return finding.code, finding.severity, group.alike, effects, finding.variants, where
 
 
 def _make_identity(finding: Finding) -> Any:
@@ -158,8 +176,8 @@ def _as_one(found: Sequence[Finding]) -> Finding:
         fixes=_combine_fixes(found),
         consequences=_merge_groups(consequences, {}),
     )
-    assert first.group is not None
-    whole.message = _format_sentence(first.group, whole)
+    whole.group = first.group or _OF_ANY_RULE
+    whole.message = _format_sentence(whole.group, whole)
     return whole
 
 

@@ -22,7 +22,8 @@ Arguments of the decorator control how findings are reported together:
     and variants still treat each finding by itself. ``Problem(group=…)`` is the message for
     several: ``"{count} links have a visual but no collision: {names}"``. Without it, the other
     names follow the first message. Problems with the same severity, effects and
-    ``Problem(alike=…)`` are one finding.
+    ``Problem(alike=…)`` are one finding. Without the argument, more than ``lint.group.FEW``
+    warnings or infos of the rule about one robot are one finding, and errors never.
 
 ``caused_by=("placeholder-inertia",)``
     A finding of one of these rules about the same element explains a finding of this rule, which

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ...model.angles import format_angles
 from ...model.elements import Robot
 from ..fix import FixContext, Proposal, find_attribute, set_attribute, unsafe
-from ..rule import UNSAFE, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from ..xml.owner import describe_owner
 from ..xml.vocabulary_table import get_census
 
@@ -18,14 +18,16 @@ _DEGREES = frozenset(map(float, (*range(30, 361, 30), *range(45, 361, 45))))
 @rule(
     WARNING,
     effects={
-        "urdfdom, gz, gazebo-classic": "take radians: 90 rad is 116.6° after 14 turns",
+        "urdfdom, gz, gazebo-classic": "take it as radians, without a message",
     },
 )
 def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iterator[Problem]:
     """A rotation of an ``<origin>`` is more than one turn.
 
     Roll, pitch and yaw are in radians. 90 means 90 rad, which is the same rotation as 116.6°, so
-    the part has a wrong orientation. ``largest`` [rad] is the largest angle that is not reported.
+    the part has a wrong orientation. An angle that is no usual one in degrees is an info: some
+    exporters do not reduce angles to one turn. ``largest`` [rad] is the largest angle that is not
+    reported.
     """
     for element in get_census(robot).known["origin"]:
         text = element.attributes.get("rpy")
@@ -44,14 +46,21 @@ def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iter
             shown = format_angles(map(math.radians, angles), 6)
             what = f"has {angle:g} in its rpy, apparently degrees; write {shown} in radians"
         else:
-            what = f"has {angle:g} rad in its rpy, more than one turn; check for degrees"
+            turned = math.degrees(math.remainder(angle, 2 * math.pi))
+            what = f"has {angle:g} rad in its rpy, the same as {turned:.4g}°; is it in degrees?"
         around = element.parent.tag if element.parent is not None else "robot"
         whose = (
             describe_owner(element)
             if around == "joint"
             else f"the <{around}> of {describe_owner(element)}"
         )
-        yield Problem(element, f"{whose} {what}", at=element.locate_attribute("rpy"), data=data)
+        yield Problem(
+            element,
+            f"{whose} {what}",
+            at=element.locate_attribute("rpy"),
+            severity=WARNING if "degrees" in data else INFO,
+            data=data,
+        )
 
 
 @rpy_in_degrees.fix(UNSAFE)

@@ -47,6 +47,7 @@ _NOT_OPENED = "urdfdom, gz, gazebo-classic"
         "urdfdom, gz, gazebo-classic": "load the robot without opening the file (sdformat 12.3)",
     },
     formats=URDF_AND_SDF,
+    group="robot",
 )
 def mesh_not_found(
     robot: Robot, description: Description, *, together: float = 3
@@ -55,7 +56,8 @@ def mesh_not_found(
 
     The link then has no visual or no collision geometry, or readers reject the robot. It goes
     unnoticed on machines that have the file in a cache or in another checkout. Several uses of one
-    file are one finding, and so are more than ``together`` missing files of one missing folder.
+    file are one finding, and so are missing files of one folder; without the folder, if they are
+    more than ``together``.
     A ``file://`` URI with a relative path names no file for RViz, even if the file is next to the
     description, where PyBullet and readers with a path of resources find it. All of them are one
     finding.
@@ -93,17 +95,22 @@ def mesh_not_found(
                 f"it, first '{first.uri}'",
                 at=first.mesh.locate_attribute("filename"),
                 data={"folder": str(folder), "count": len(paths)},
+                alike=str(folder),
                 effects=_select_effects(lost, [use for path in paths for use in missing[path]]),
             )
             continue
         for path in paths:
             first = missing[path][0]
+            similar = _suggest_file(description.workspace, path)
             yield Problem(
                 first.link,
                 f"mesh file of link '{first.link.name}' does not exist: '{first.uri}' refers to "
-                f"'{shorten_path(path)}'{_suggest_file(description.workspace, path)}",
+                f"'{shorten_path(path)}'{similar}",
                 at=first.mesh.locate_attribute("filename"),
                 data={"uri": first.uri, "path": str(path)},
+                alike=str(path if similar else path.parent),
+                group=f"{{count}} mesh files of the folder '{shorten_path(path.parent)}' do not "
+                f"exist, first '{first.uri}'; links: {{names}}",
                 effects=_select_effects(lost, missing[path]),
             )
 
@@ -123,6 +130,7 @@ def _report_refused(uses: list[MeshUse]) -> Iterator[Problem]:
             at=use.mesh.locate_attribute("filename"),
             severity=WARNING,
             data={"uri": use.uri, "refusal": use.refusal},
+            alike=use.uri,
             effects=[],
         )
 
@@ -153,6 +161,7 @@ def _report_relative(uses: list[MeshUse], lost: list[MeshUse]) -> Iterator[Probl
             "package://PACKAGE/… or a relative path without file://",
             at=use.mesh.locate_attribute("filename"),
             data={"uri": use.uri, "path": path, "count": count},
+            alike=path,
             effects=[one for one in _select_effects(lost, group) if not above or one != "gz"],
         )
 

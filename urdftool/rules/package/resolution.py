@@ -26,6 +26,7 @@ APPLIES_TO = ("mesh",)
         "pybullet (no such folder)": "rejects the robot: it finds no folder of that name",
         "pybullet (a folder)": "takes the folder of that name as the package",
     },
+    group="repository",
 )
 def package_not_found(
     robot: Robot, description: Description, targets: frozenset[str]
@@ -59,6 +60,9 @@ def package_not_found(
             at=uses[0].mesh.locate_attribute("filename"),
             hint="; ".join(f"searched {place}" for place in _shorten_places(uses[0].searched)),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (no such folder)"),
+            alike=(name, meant),
+            group=f"package '{name}' is not found, so meshes of {{count}} robots were not checked; "
+            f"{remedy}",
         )
     severity = INFO if targets.isdisjoint(ROS) else WARNING
     yield from _report_assumed_packages(robot, description, severity)
@@ -86,6 +90,9 @@ def _report_assumed_packages(
             at=uses[0].mesh.locate_attribute("filename"),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (a folder)"),
             severity=severity,
+            alike=(name,),
+            group=f"package '{name}' is not found, so meshes of {{count}} robots are read from "
+            "folders of that name, as PyBullet does; write relative paths",
         )
 
 

@@ -141,12 +141,15 @@ def describe_root(root: Element) -> str:
 
 
 _NAME_EFFECTS = {
-    "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a robot)": "reject it",
+    "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a robot, no attribute)": "reject it",
+    "gz, gazebo-classic (a robot, empty)": "reject it",
+    "drake (a robot, empty)": "crashes",
+    "urdfdom, pybullet, pinocchio, mujoco (a robot, empty)": "accept it",
     "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a link)": "reject the robot",
     "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake (a joint, no attribute)": (
         "reject the robot"
     ),
-    "mujoco (a robot)": "accepts it",
+    "mujoco (a robot, no attribute)": "accepts it",
     "mujoco (a joint, no attribute)": "rejects the file",
     "pinocchio (a joint, empty)": "accepts it",
     "pybullet (a joint, empty)": "crashes",
@@ -162,8 +165,8 @@ _NAME_EFFECTS = {
 def missing_name(description: Description) -> Iterator[Problem]:
     """A robot, link, joint or transmission has no name.
 
-    Other elements refer to links and joints by name. urdfdom rejects the robot; other readers use
-    the empty name, which two links may share. A ``<robot>`` without elements needs no name, and
+    Other elements refer to links and joints by name. urdfdom rejects a robot with such a link, and
+    SDFormat one whose own name is empty. A ``<robot>`` without elements needs no name, and
     neither does one that another file includes.
     """
     root = description.document.root

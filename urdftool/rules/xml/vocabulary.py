@@ -174,7 +174,7 @@ _RARE = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
             "ignore it, without a message"
         ),
     },
-    group="robot",
+    group="repository",
 )
 def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]:
     """An element is not in URDF at this place.
@@ -190,6 +190,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     in_xacro = bool(unknown) and description.expansion is not None
     of_xacro = _XACRO | get_macro_names(description) if in_xacro else frozenset()
     other: dict[tuple[str, str], list[Element]] = {}
+    file = str(description.packages.file)
     for element in unknown:
         parent = element.parent
         if parent is None or parent.tag == "dynamics" or element.tag in of_xacro:
@@ -208,16 +209,24 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             other.setdefault((parent.tag, element.tag), []).append(element)
         elif instead:
             what = f"<{element.tag}> does not belong in {_describe(parent)}; {instead}"
-            yield Problem(element, what, alike=(parent.tag, element.tag))
+            yield Problem(element, what, alike=(file, parent.tag, element.tag))
         elif word is not None and word != element.tag.lower():
             what = f"{_describe(parent)} has the unknown element <{element.tag}>; write <{word}>"
             is_needless = word == "origin" and _moves_nothing(element)
             severity = INFO if is_needless else ERROR
-            yield Problem(element, what, severity=severity, alike=(parent.tag, element.tag))
+            alike = (file, parent.tag, element.tag)
+            yield Problem(element, what, severity=severity, alike=alike)
     for kind, elements in other.items():
         where = f"{_describe(elements[0].parent)}{_format_count(elements)}"
         message = f"<{kind[1]}> does not belong in {where}; URDF readers ignore it"
-        yield Problem(elements[0], message, severity=INFO, alike=(*kind, len(elements) > 1))
+        yield Problem(
+            elements[0],
+            message,
+            severity=INFO,
+            alike=kind,
+            group=f"<{kind[1]}> does not belong in <{kind[0]}>; URDF readers ignore it "
+            "(in {count} robots)",
+        )
 
 
 def _moves_nothing(element: Element) -> bool:
