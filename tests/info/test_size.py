@@ -17,6 +17,20 @@ def test_the_size_goes_around_turned_primitives():
     assert bounds.high == pytest.approx((3, 0.5, 3.5))
 
 
+def test_a_mimic_joint_with_an_offset_is_where_it_follows_at_the_zero_pose():
+    model = robot(
+        '<robot name="r"><link name="a"/><link name="b"/><link name="c"><visual>'
+        '<origin xyz="0 0 1"/><geometry><box size="0.1 0.1 0.1"/></geometry></visual></link>'
+        '<joint name="j" type="continuous"><parent link="a"/><child link="b"/>'
+        '<axis xyz="0 1 0"/></joint><joint name="k" type="continuous"><parent link="b"/>'
+        '<child link="c"/><axis xyz="0 1 0"/>'
+        '<mimic joint="j" offset="1.5707963267948966"/></joint></robot>'
+    )
+    bounds = measure(model).bounds
+    assert bounds.low == pytest.approx((0.95, -0.05, -0.05))
+    assert bounds.high == pytest.approx((1.05, 0.05, 0.05))
+
+
 def test_a_robot_without_shapes_has_no_size():
     assert measure(tree("ab", [("ab", "a", "b")])).bounds is None
 

@@ -66,8 +66,18 @@ def test_limits():
 
 @pytest.mark.parametrize(
     ("positions", "words"),
-    [({"trun": 1}, "did you mean 'turn'"), ({"turn": math.nan}, "not a finite number")],
+    [
+        ({"trun": 1}, "did you mean 'turn'"),
+        ({"turn": math.nan}, "not a finite number"),
+        ({"slide": 1}, "'slide' mimics 'turn'; give a position of that joint instead"),
+        ({"turn": 1, "last": 2.5}, "'last' mimics 'turn'"),
+    ],
 )
 def test_a_position_that_cannot_be_is_refused(positions, words):
     with pytest.raises(ModelError, match=words):
         check_positions(robot(ARM), positions)
+
+
+def test_a_mimic_joint_may_be_given_where_its_leader_moves_it():
+    check_positions(robot(ARM), {"turn": 1, "slide": 2.5, "last": -2.5000001})
+    check_positions(robot(ARM), {"slide": 0.5})

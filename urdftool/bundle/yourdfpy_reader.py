@@ -16,7 +16,7 @@ from ..errors import AccessError, UrdftoolError
 from ..extras import require
 from ..geometry.mesh import Array
 from ..model.elements import Joint, Robot
-from ..model.kinematics import add_mimic_positions, find_movable_joints, link_poses
+from ..model.kinematics import compute_link_poses, find_movable_joints
 from .defect import UNREADABLE_SOURCE, Defect
 from .description import make_urdf
 
@@ -118,7 +118,7 @@ def _compare_frames(robot: Robot, source: Any, bundle: Any) -> Iterator[str]:
         with _without_messages():
             bundle.update_cfg(positions)
             source.update_cfg(positions)
-        poses = link_poses(robot, add_mimic_positions(robot, positions))
+        poses = compute_link_poses(robot, positions)
         for name in compared:
             if name not in poses:
                 continue

@@ -13,7 +13,7 @@ from ..drawing.shapes import Shapes, make_bare_shapes, read_robot_shapes
 from ..drawing.text import Words, draw_text
 from ..errors import UrdftoolError
 from ..model.elements import Robot
-from ..model.kinematics import link_poses
+from ..model.kinematics import compute_link_poses
 from ..model.pose import IDENTITY, Pose, make_pose
 from .check import convert_shape
 from .compute import Result, Task
@@ -51,12 +51,12 @@ def draw_mesh(task: Task, result: Result) -> bytes:
 
 
 def draw_robot(robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result]) -> bytes:
-    """Draw a robot's visuals and its new collisions, with all joints at zero, as a PNG file.
+    """Draw a robot's visuals and its new collisions, at the zero pose, as a PNG file.
 
     Raises:
         UrdftoolError: It has neither.
     """
-    poses = link_poses(robot)
+    poses = compute_link_poses(robot)
     poses = {link.name: poses.get(link.name, IDENTITY) for link in robot.links}
     planned = {item.index: item for item in plans}
     right: list[Piece] = []

@@ -48,7 +48,7 @@ def _draw(console: Console, options: Options, path: str, findings: list[Finding]
     from ..drawing.shapes import read_robot_shapes
     from ..errors import UrdftoolError
     from ..extras import require
-    from ..model.kinematics import add_mimic_positions, link_poses
+    from ..model.kinematics import compute_link_poses
     from ..viewer.findings_picture import draw_findings
     from .load_tolerant import load_tolerant
 
@@ -63,5 +63,5 @@ def _draw(console: Console, options: Options, path: str, findings: list[Finding]
         return error.message
     if not len(shapes):
         return "the robot has no visual geometry that can be read"
-    poses = link_poses(robot, add_mimic_positions(robot, {}))
+    poses = compute_link_poses(robot)
     return encode_png(draw_findings(robot, shapes, poses, findings, size=_SIZE))

@@ -189,7 +189,7 @@ def write_pictures(
     from ..drawing.shapes import read_robot_shapes
     from ..errors import ModelError
     from ..model.files import list_sources
-    from ..model.kinematics import add_mimic_positions, check_positions, link_poses
+    from ..model.kinematics import check_positions, compute_link_poses
     from ..output import check_targets
 
     check_pictures(picture, contact_sheet)
@@ -202,7 +202,7 @@ def write_pictures(
     for problem in shapes.problems:
         console.print_error(problem)
     report_gltf_axes(console, robot)
-    poses = link_poses(robot, add_mimic_positions(robot, positions))
+    poses = compute_link_poses(robot, positions)
     if not len(shapes):
         what = "" if show == "both" else f"{show} "
         other = any(link.collisions if show == "visual" else link.visuals for link in robot.links)

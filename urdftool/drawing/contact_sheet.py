@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..model.elements import Joint, Robot
-from ..model.kinematics import add_mimic_positions, find_movable_joints, get_limits, link_poses
+from ..model.kinematics import compute_link_poses, find_movable_joints, get_limits
 from .camera import Camera, View
 from .picture import view_of
 from .png_file import Image
@@ -117,7 +117,7 @@ def draw_contact_sheet(
         Pixels, shape (height, width, 3); a sheet with only a title if no joint moves.
     """
     given = dict(positions or {})
-    corners, _, there = shapes.transform(link_poses(robot, add_mimic_positions(robot, given)))
+    corners, _, there = shapes.transform(compute_link_poses(robot, given))
     seen = corners[there].reshape(-1, 3)
     size = compute_extent(seen) if len(seen) else 1.0
     sweeps = list_sweeps(robot, slide=_SLIDE * size, shown=list_shown_links(shapes))
@@ -249,10 +249,7 @@ def _pair(
     moved = np.zeros(len(shapes), dtype=bool)
     moved[_find_rows(shapes, names)] = True
     free = {k: v for k, v in given.items() if k not in sweep.followers}
-    at = [
-        link_poses(robot, add_mimic_positions(robot, {**free, sweep.joint.name: end}))
-        for end in sweep.ends
-    ]
+    at = [compute_link_poses(robot, {**free, sweep.joint.name: end}) for end in sweep.ends]
     both = []
     for poses in at:
         corners, _, there = shapes.transform(poses)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..model.elements import Robot
-from ..model.kinematics import add_mimic_positions, link_poses
+from ..model.kinematics import compute_link_poses
 from ..model.pair_pose import PairPose
 from .camera import Camera
 from .picture import view_of
@@ -108,7 +108,7 @@ def draw_pair_sheet(
 def _draw(
     robot: Robot, shapes: Shapes, cloud: Cloud, pair: PairPose, cell: tuple[int, int]
 ) -> Image:
-    poses = link_poses(robot, add_mimic_positions(robot, dict(pair.positions)))
+    poses = compute_link_poses(robot, dict(pair.positions))
     names = {pair.link1, pair.link2}
     chosen = np.isin(shapes.link, [row for row, name in enumerate(shapes.links) if name in names])
     corners, _, there = shapes.transform(poses)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import MeshError, UrdftoolError
 from ..model.elements import Collision, Mesh, Robot, Visual
-from ..model.kinematics import add_mimic_positions, check_positions, link_poses
+from ..model.kinematics import check_positions, compute_link_poses
 from ..model.materials import resolve_material
 from ..model.pose import Pose, make_pose
 from ..model.shapes import (
@@ -57,7 +57,7 @@ def make_scene(
     scene: Any = trimesh.Scene(base_frame="world")
     loaded: dict[tuple[str, tuple[float, ...]], Triangles] = {}
     check_positions(robot, positions or {})
-    poses = link_poses(robot, add_mimic_positions(robot, positions or {}))
+    poses = compute_link_poses(robot, positions or {})
     for name, pose in poses.items():
         scene.graph.update(frame_from="world", frame_to=name, matrix=make_matrix(pose))
         link = robot.link[name]

@@ -3,6 +3,6 @@
 Modules are imported separately (this package imports nothing):
 
 - ``counts``: links, joints by type, degrees of freedom, mass, plugins, sensors, packages;
-- ``size``: the bounding box of all geometry at zero joint positions, and the meshes with their
+- ``size``: the bounding box of all geometry at the zero pose, and the meshes with their
   triangles.
 """

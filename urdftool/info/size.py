@@ -1,4 +1,4 @@
-"""Bounding box of all geometry at zero joint positions, and meshes with their triangles."""
+"""Bounding box of all geometry at the zero pose, and meshes with their triangles."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from ..errors import UrdftoolError
 from ..model.bounds import Bounds, compute_bounds_at
 from ..model.elements import Collision, Mesh, Robot, Vector, Visual
-from ..model.kinematics import link_poses
+from ..model.kinematics import compute_link_poses
 from ..model.pose import Pose, make_pose
 
 Progress = Callable[[int, int, str], None]
@@ -42,7 +42,7 @@ class Measured:
     """Dimensions of the geometry of a robot.
 
     Attributes:
-        bounds: Bounding box at zero joint positions, along the axes of the root [m]; None if no
+        bounds: Bounding box at the zero pose, along the axes of the root [m]; None if no
             geometry can be read, or a length is not finite.
         meshes: Mesh files, in the order of their first reference.
     """
@@ -56,14 +56,16 @@ class Measured:
 
 
 def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
-    """Compute the bounding box of a robot at zero joint positions, and read its meshes.
+    """Compute the bounding box of a robot at the zero pose, and read its meshes.
+
+    At the zero pose, all joints are at 0, and mimic joints follow them.
 
     Args:
         robot: The robot, read from a description.
         progress: Called before each mesh is read, with its number, the number of meshes and its
             URI.
     """
-    poses = link_poses(robot)
+    poses = compute_link_poses(robot)
     measured = Measured()
     boxes: list[Bounds] = []
     uses: dict[str, list[tuple[Pose | None, Visual | Collision]]] = {}

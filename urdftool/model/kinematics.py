@@ -16,6 +16,8 @@ MOVABLE = ("revolute", "continuous", "prismatic")
 
 NOWHERE: Mapping[str, float] = {}
 
+_SAME = 1e-6  # [rad, m], or a ratio: rounding of a mimic joint's position; chosen, no source
+
 
 def link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[str, Pose]:
     """Return the pose of each link in the frame of its root, by name.
@@ -25,7 +27,7 @@ def link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[s
     Args:
         robot: Any robot, also an invalid one.
         positions: Joint positions by name [rad, m]; 0 by default. Mimic joints do not follow
-            their leaders; use :func:`add_mimic_positions` for that.
+            their leaders; use :func:`compute_link_poses` for that.
     """
     poses: dict[str, Pose] = {}
     for name in robot.tree.order:
@@ -39,10 +41,15 @@ def link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[s
     return poses
 
 
+def compute_link_poses(robot: Robot, positions: Mapping[str, float] = NOWHERE) -> dict[str, Pose]:
+    """Return :func:`link_poses` with mimic joints that follow their leaders, also by an offset."""
+    return link_poses(robot, add_mimic_positions(robot, positions))
+
+
 def get_zero_poses(robot: Robot) -> dict[str, Pose]:
     """Return :func:`link_poses` with all joints at 0, computed once for a robot.
 
-    Not for a robot whose joints are changed afterwards.
+    Mimic joints with an offset are at 0, too. Not for a robot whose joints are changed afterwards.
     """
     return robot.memo.get(get_zero_poses, lambda: link_poses(robot))
 
@@ -101,8 +108,9 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
     """Check requested joint positions.
 
     Raises:
-        ModelError: The robot has no such joint, the joint does not have one position, or the
-            position is not finite. Positions beyond a limit are allowed.
+        ModelError: The robot has no such joint, the joint does not have one position, the position
+            is not finite, or it is that of a mimic joint whose leader moves it elsewhere. Positions
+            beyond a limit are allowed.
     """
     movable = find_movable_joints(robot)
     for name, value in positions.items():
@@ -119,6 +127,14 @@ def check_positions(robot: Robot, positions: Mapping[str, float]) -> None:
             raise ModelError(f"movable joint '{name}' does not exist{hint}")
         if not (isinstance(value, Real) and math.isfinite(value)):
             raise ModelError(f"position of joint '{name}' is {value!r}, not a finite number")
+    leaders = {name: follow_mimic_chain(movable[name], movable)[0] for name in positions}
+    free = {name: at for name, at in positions.items() if leaders[name] == name}
+    followed = add_mimic_positions(robot, free)
+    for name, leader in leaders.items():
+        if not math.isclose(positions[name], followed[name], rel_tol=_SAME, abs_tol=_SAME):
+            raise ModelError(
+                f"joint '{name}' mimics '{leader}'; give a position of that joint instead"
+            )
 
 
 def get_limits(joint: Joint) -> tuple[float, float]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from ..model.elements import Joint, Robot
-from ..model.kinematics import add_mimic_positions, link_poses
+from ..model.kinematics import compute_link_poses
 from ..model.semantic import GroupState, StateJoint
 from ..model.start import compute_allowed_range, list_initial_positions
 from .body_tree import BodyTree
@@ -100,7 +100,7 @@ def _measure_spread(tree: BodyTree, gripper: Gripper, positions: Mapping[str, fl
     A single finger is compared with the palm.
     """
     robot = tree.robot
-    poses = link_poses(robot, add_mimic_positions(robot, positions))
+    poses = compute_link_poses(robot, positions)
     ends = [j.child for j in gripper.joints if not tree.get_joints_below(j.child)]
     links = ends if len(ends) > 1 else [gripper.palm, *ends]
     centers = []

@@ -14,7 +14,7 @@ from ..finding import Finding
 from ..model.elements import Robot
 from ..model.files import list_sources
 from ..model.gltf_axes import describe_gltf_axes
-from ..model.kinematics import NOWHERE, link_poses
+from ..model.kinematics import NOWHERE, compute_link_poses, link_poses
 from ..model.pair_pose import PairPose
 from . import panels
 from .environment import SHEET, VIEW, add_lights, compute_viewpoint, lay_ground
@@ -167,7 +167,7 @@ class Page:
         """Fill the page with the current robot."""
         robot, body = self.robot, self.body
         shapes = [body.load(kind) for kind in ("visual", "collision") if self._boxes[kind].value]
-        self._low, self._high = body.measure(link_poses(robot))
+        self._low, self._high = body.measure(compute_link_poses(robot))
         self._floor = self._low[2]
         with self.server.atomic():
             self.joints.take(robot, body.size)

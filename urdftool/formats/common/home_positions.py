@@ -59,16 +59,11 @@ def choose_home_positions(
 
     Raises:
         ConfigError: The SRDF has no such state.
-        ModelError: A joint of ``pose`` does not exist or mimics another.
+        ModelError: A joint of ``pose`` does not exist, or mimics another that moves it elsewhere.
     """
     pose = _match_joints(robot, pose)
     check_positions(robot, pose)
-    leaders = _get_leaders(robot)
-    for name in pose:
-        if name in leaders:
-            raise ModelError(
-                f"joint '{name}' mimics '{leaders[name]}'; give a position of that joint instead"
-            )
+    mimics = _list_mimics(robot)
     stands = state == STAND and (srdf is None or state not in srdf.states)
     found: dict[str, float] = {}
     for source, positions in (
@@ -78,7 +73,7 @@ def choose_home_positions(
     ):
         for name, value in positions.items():
             joint = robot.joint.get(name)
-            if joint is not None and name not in leaders:
+            if joint is not None and name not in mimics:
                 found[name] = _compute_within(robot, joint, value, source, written)
     values, clamped = start_positions(robot, found)
     return HomePositions(values, frozenset(found), frozenset(clamped), stands)
@@ -91,12 +86,12 @@ def _match_joints(robot: Robot, pose: Mapping[str, float]) -> dict[str, float]:
         ModelError: No joint matches a pattern.
     """
     movable = find_movable_joints(robot)
-    leaders = _get_leaders(robot)
+    mimics = _list_mimics(robot)
     found: dict[str, float] = {}
     for pattern, value in pose.items():
         if pattern in movable or not set(pattern) & set("*?["):
             continue
-        fitting = [n for n in movable if fnmatchcase(n, pattern) and n not in leaders]
+        fitting = [n for n in movable if fnmatchcase(n, pattern) and n not in mimics]
         if not fitting:
             names = ", ".join(movable) or "none"
             raise ModelError(f"no joint that moves matches '{pattern}'; there are {names}")
@@ -106,14 +101,10 @@ def _match_joints(robot: Robot, pose: Mapping[str, float]) -> dict[str, float]:
     return found | own
 
 
-def _get_leaders(robot: Robot) -> dict[str, str]:
-    """Return the leader of each movable mimic joint, by name."""
+def _list_mimics(robot: Robot) -> set[str]:
+    """Return the names of the movable joints that mimic another."""
     movable = find_movable_joints(robot)
-    return {
-        joint.name: joint.mimic.joint
-        for joint in movable.values()
-        if joint.mimic is not None and joint.mimic.joint in movable
-    }
+    return {n for n, joint in movable.items() if joint.mimic and joint.mimic.joint in movable}
 
 
 def _compute_within(

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 
 from ...model.elements import Robot
-from ...model.kinematics import add_mimic_positions, link_poses
+from ...model.kinematics import compute_link_poses
 from ...model.mechanism import Closure
 from ...model.pose import Pose, make_pose
 from ..written import Written
@@ -27,7 +27,7 @@ def report_open_loops(robot: Robot, positions: Mapping[str, float], written: Wri
     """
     if not robot.closures:
         return
-    poses = link_poses(robot, add_mimic_positions(robot, positions))
+    poses = compute_link_poses(robot, positions)
     gaps: dict[int, tuple[float, Closure]] = {}
     for loop in robot.closures:
         if loop.is_active and loop.parent in poses and loop.child in poses:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...model.elements import Robot
-from ...model.kinematics import add_mimic_positions, link_poses
+from ...model.kinematics import compute_link_poses
 from ..overlap import measure_triangle_penetration
 from ..recording import Array
 from ..rigid_bodies import RigidBody, RigidBodyJoint
@@ -133,7 +133,7 @@ def _keeps_overlap(
         for joint in start.bodies.joints:
             if joint.leader is not None:
                 positions.pop(joint.name, None)  # computed from its leader
-        poses = link_poses(robot, add_mimic_positions(robot, positions))
+        poses = compute_link_poses(robot, positions)
         depth = measure_triangle_penetration(robot, poses, *links)
         if depth is None:
             return False
