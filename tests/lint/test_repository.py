@@ -1,6 +1,7 @@
 """All robots of a folder: by name, content, configuration, launch files and CMake."""
 
 import subprocess
+from pathlib import Path
 
 import pytest
 
@@ -249,4 +250,52 @@ def test_what_the_search_does_not_follow_is_in_the_last_line(package, urdftool, 
     (package / "a.launch.py").write_text('Command(["xacro ", choose(), "/two.xacro"])')
     line = last(urdftool("lint", ".", *ONLY))
     assert line.endswith("; computed paths not followed: a.launch.py:1; links not followed: linked")
-    assert "elsewhere, which are not followed: linked" in urdftool("lint", ".", "--list").err
+    assert "which are not followed: linked" in urdftool("lint", ".", "--list").err
+
+
+NEAR = '<robot name="r"><link name="a"/></robot>'
+TWICE = '<robot name="r"><link name="a"/><link name="a"/></robot>'
+
+
+@pytest.fixture
+def linked(tmp_path, monkeypatch):
+    """Return a folder with links to a file elsewhere, to nothing, and to its own file."""
+    for name, text in (("p/a.urdf", NEAR), ("q/b.urdf", TWICE)):
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).write_text(text)
+    monkeypatch.chdir(tmp_path / "p")
+    for name, target in (("b.urdf", "../q/b.urdf"), ("gone.sdf", "no.sdf"), ("own.urdf", "a.urdf")):
+        Path(name).symlink_to(target)
+    return tmp_path
+
+
+@pytest.mark.parametrize("command", [["lint", ".", *ONLY], ["fmt", ".", "--check"]])
+def test_links_to_files_that_are_not_followed_are_named(linked, urdftool, command):
+    result = urdftool(*command)
+    assert "links not followed: b.urdf, gone.sdf\n" in result.err
+
+
+def test_where_only_links_are_they_are_named(linked, urdftool):
+    Path("a.urdf").unlink()
+    result = urdftool("lint", ".")
+    assert result.code == 2
+    assert result.err.splitlines()[0].endswith("; links not followed: ./b.urdf, ./own.urdf")
+
+
+def test_a_link_within_a_repository_is_followed(linked, urdftool):
+    (linked / ".git").mkdir()
+    result = urdftool("lint", ".", "--select", "duplicate-link-name")
+    assert result.code == 1
+    assert "b.urdf:1:" in result.out
+    assert last(result).endswith("0 not checked; links not followed: gone.sdf")
+
+
+def test_endings_in_capitals_are_found(tmp_path, urdftool, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("A.URDF").write_text(TWICE)
+    Path("part.Xacro").write_text(HEAD.format("x") + '<link name="l"/></robot>')
+    Path("M.SDF").write_text(
+        "<sdf version='1.7'><model name='m'><link name='l'/></model></sdf>", "utf-8"
+    )
+    listed = urdftool("lint", ".", "--list").out
+    assert [line.split()[0] for line in listed.splitlines()] == ["A.URDF", "part.Xacro", "M.SDF"]

@@ -122,11 +122,14 @@ def process_fleet(
     values: Values,
 ) -> int:
     """Process several robots with one pool of workers; an error in one does not stop the others."""
-    from ..lint.discover import explain_nothing_found, find_descriptions
+    from ..lint.discover import describe_links, explain_nothing_found, find_descriptions
 
-    files = find_descriptions(paths)
+    links: list[str] = []
+    files = find_descriptions(paths, links)
     if not files:
         raise click.UsageError(explain_nothing_found(paths))
+    if links:
+        console.print_note(describe_links(links))
     if values["picture"]:
         raise click.UsageError("--picture does not support several robots")
     root = os.path.commonpath([os.path.abspath(p) for p in paths])

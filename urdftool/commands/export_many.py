@@ -149,7 +149,7 @@ def _export_many(
     output = ctx.params["output"]
     if output in (None, "-") or "-" in robots.paths:
         raise click.UsageError("several robots require -o OUT, a folder, and no '-'", ctx)
-    files = _find_robots(ctx, robots)
+    files = _find_robots(ctx, console, robots)
     places = choose_places(files, output)
     values = {key: value for key, value in ctx.params.items() if key not in ("robot", "output")}
     name = str(ctx.info_name)
@@ -172,10 +172,10 @@ def _export_many(
     return _report(console, files, places, outcomes, as_json=values["style"] == "json")
 
 
-def _find_robots(ctx: click.Context, robots: Robots) -> list[str]:
+def _find_robots(ctx: click.Context, console: Console, robots: Robots) -> list[str]:
     """Return the robots among files and below folders, as ``lint`` finds them."""
     from ..formats.search import find_other_descriptions
-    from ..lint.discover import explain_nothing_found
+    from ..lint.discover import describe_links, explain_nothing_found
     from ..lint.options import Options
     from ..workspace import Workspace
     from .lint_repository import find_repository, list_robot_files
@@ -187,10 +187,12 @@ def _find_robots(ctx: click.Context, robots: Robots) -> list[str]:
         workspace=Workspace(),
     )
     found = find_repository(robots.paths, options)
-    others = find_other_descriptions(robots.paths).files
-    files = list_robot_files([*robots.paths, *others], found)
+    others = find_other_descriptions(robots.paths)
+    files = list_robot_files([*robots.paths, *others.files], found)
     if not files:
         raise click.UsageError(explain_nothing_found(robots.paths), ctx)
+    if links := describe_links([*found.links, *others.links]):
+        console.print_note(links)
     return files
 
 

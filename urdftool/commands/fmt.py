@@ -39,12 +39,16 @@ def command(console: Console, paths: tuple[str, ...], check: bool, diff: bool) -
     read, is not well-formed or could not be written.
     """  # noqa: D301 -- click reads the escape
     from ..fmt.discover import ENDINGS, find_files
+    from ..lint.discover import describe_links
     from ..lint.skipped import exclude_files
     from ..workspace import Workspace
 
-    files = find_files(paths)
+    links: list[str] = []
+    files = find_files(paths, links)
     if not files:
         raise click.UsageError(f"no {', '.join(ENDINGS)} or MJCF file below {', '.join(paths)}")
+    if links:
+        console.print_note(describe_links(links))
     files, _ = exclude_files(files, paths, console.config, Workspace())
     code = 0
     changed: list[Formatted] = []

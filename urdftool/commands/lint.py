@@ -248,6 +248,7 @@ def _check_paths(
     options = Options(Settings(), arguments, package, package_path, config=console.config)
     options.workspace = workspace
     found = find_repository(paths, options)
+    found.links += other.links
     files = list_robot_files([*paths, *other.files], found)
     if not files and not other.skipped:
         raise click.UsageError(explain_nothing_found(paths))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..console import Console
+from ..lint.discover import describe_links, shorten_list
 from ..report.counted import format_count
 
 if TYPE_CHECKING:
@@ -16,8 +17,6 @@ if TYPE_CHECKING:
     from ..lint.outcome import Report
     from ..lint.repository import Repository
     from ..workspace import Workspace
-
-_MOST_NAMES = 5  # robots that a line names; chosen, no source
 
 
 def find_repository(paths: Sequence[str], options: Options) -> Repository:
@@ -45,8 +44,8 @@ def list_robot_files(paths: Sequence[str], found: Repository) -> list[str]:
         if path == "-" or not os.path.isdir(path):
             files.setdefault(path if path == "-" else os.path.realpath(path), path)
             continue
-        inside = os.path.realpath(path) + os.sep
-        below = (item for item in found.robots.items() if item[0].startswith(inside))
+        inside = os.path.join(os.path.abspath(path), "")
+        below = (i for i in found.robots.items() if os.path.abspath(i[1].path).startswith(inside))
         for real, robot in sorted(below, key=lambda item: item[1].path):
             files.setdefault(real, robot.path)
     return list(files.values())
@@ -114,21 +113,16 @@ def check_source(path: str, options: Options) -> Report:
 def _print_unknown(found: Repository) -> None:
     for what, places in (
         ("paths of descriptions that are computed, and not followed", found.unknown),
-        ("links to folders elsewhere, which are not followed", found.links),
+        ("links elsewhere or to nowhere, which are not followed", sorted(set(found.links))),
     ):
         if places:
-            click.echo(f"{what}: {_join_names(places)}", err=True)
-
-
-def _join_names(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
-    return f"{', '.join(names[:_MOST_NAMES])}{more}"
+            click.echo(f"{what}: {shorten_list(places)}", err=True)
 
 
 def summarize_robots(found: Repository, options: Options, reports: Collection[Report]) -> str:
     """Return ``checked 3 robots (4 variants), 12 files belong to them, 0 not checked``.
 
-    Launch files that compute the path of a description, and links to folders elsewhere, follow.
+    Launch files that compute the path of a description, and links that are not followed, follow.
     """
     checked = [report.path for report in reports if report.checked]
     missing = [report.path for report in reports if report.not_checked or report.unexpanded]
@@ -136,12 +130,13 @@ def summarize_robots(found: Repository, options: Options, reports: Collection[Re
     read = {os.path.realpath(path) for report in reports if report.checked for path in report.files}
     belonging = (read | {path for real in reals for path in found.list_belonging(real)}) - reals
     variants = sum(len(options.variants.get(real, ())) or 1 for real in reals)
-    unknown, links = (_join_names(names) for names in (found.unknown, found.links))
-    return (
+    unknown = shorten_list(found.unknown)
+    parts = (
         f"checked {format_count(len(checked), 'robot')} ({format_count(variants, 'variant')}), "
         f"{format_count(len(belonging), 'file')} {'belong' if len(belonging) != 1 else 'belongs'} "
         f"to {'it' if len(checked) == 1 else 'them'}, {len(missing)} not checked"
-        + (f": {_join_names(missing)}" if missing else "")
-        + (f"; computed paths not followed: {unknown}" if unknown else "")
-        + (f"; links not followed: {links}" if links else "")
+        + (f": {shorten_list(missing)}" if missing else ""),
+        f"computed paths not followed: {unknown}" if unknown else "",
+        describe_links(found.links),
     )
+    return "; ".join(filter(None, parts))

@@ -102,7 +102,7 @@ def simulate_fleet(
     Raises:
         OutputError: The JUnit file cannot be written.
     """
-    from ..lint.discover import explain_nothing_found, find_descriptions
+    from ..lint.discover import describe_links, explain_nothing_found, find_descriptions
     from ..output import write_file
     from ..report import simulate_fleet as report
     from ..simulation import verdict  # noqa: F401 -- loaded before workers are forked
@@ -111,9 +111,12 @@ def simulate_fleet(
     from .simulate_one import print_old_thresholds
 
     console = fleet.console
-    descriptions = find_descriptions(paths)
+    links: list[str] = []
+    descriptions = find_descriptions(paths, links)
     if not descriptions:
         raise click.UsageError(explain_nothing_found(paths))
+    if links:
+        console.print_note(describe_links(links))
     print_old_thresholds(console, descriptions)
     limit = len(fleet.engines) * SLOWEST * fleet.settings.time_limit + PATIENCE
     rows = {}

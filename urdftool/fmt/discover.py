@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Iterable
 
-from ..lint.discover import list_files
+from ..lint.discover import has_ending, list_files
 
 ENDINGS = (".urdf", ".xacro", ".sdf", ".srdf", ".world", ".mjcf")
 _HEAD = 16_384
@@ -16,18 +16,22 @@ _ROOT = re.compile(
 )
 
 
-def find_files(paths: Iterable[str]) -> list[str]:
+def find_files(paths: Iterable[str], links: list[str] | None = None) -> list[str]:
     """Return the files to format, each once: named files, and descriptions below named folders.
 
     Below folders these are files by their ending, and ``.xml`` files by their root element; hidden
     folders are skipped. A named path that does not exist is kept, so that it is reported.
+
+    Args:
+        paths: Files and folders.
+        links: List to which links are added that are not followed.
     """
     found: dict[str, str] = {}
     for path in paths:
         files = [path]
         if os.path.isdir(path):
-            below = list_files(path, (*ENDINGS, ".xml"))
-            files = [file for file in below if file.endswith(ENDINGS) or _is_description(file)]
+            below = list_files(path, (*ENDINGS, ".xml"), links)
+            files = [file for file in below if has_ending(file, *ENDINGS) or _is_description(file)]
         for file in files:
             found.setdefault(file if file == "-" else os.path.realpath(file), file)
     return list(found.values())

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from ..errors import UrdftoolError
 from ..extras import is_installed
-from ..lint.discover import list_files
+from ..lint.discover import has_ending, list_files
 
 _ENDINGS = (".sdf", ".xml", ".mjcf")
 _INCLUDE = re.compile(rb"<include\b[^<>]*?\bfile\s*=\s*[\"']([^\"']+)[\"']")
@@ -24,11 +24,13 @@ class Found:
         files: Files that describe a robot.
         skipped: Reason by file that belongs to a format, but describes no robot of its own.
         not_checked: Reason by file that may be a robot, but whose reader is not installed.
+        links: Links that are not followed.
     """
 
     files: list[str] = field(default_factory=list)
     skipped: dict[str, str] = field(default_factory=dict)
     not_checked: dict[str, str] = field(default_factory=dict)
+    links: list[str] = field(default_factory=list)
 
 
 def find_other_descriptions(paths: Iterable[str]) -> Found:
@@ -47,17 +49,17 @@ def find_other_descriptions(paths: Iterable[str]) -> Found:
     from ..source.document import read_file
     from .detect import format_of
 
-    for path in (path for folder in folders for path in list_files(folder, _ENDINGS)):
+    for path in (path for folder in folders for path in list_files(folder, _ENDINGS, found.links)):
         try:
             file = read_file(path)
         except UrdftoolError as error:
-            if path.endswith(".sdf"):
+            if has_ending(path, ".sdf"):
                 found.skipped[path] = error.message
             continue
         kind = format_of(file).name
         if kind == "mjcf":
             models[os.path.realpath(path)] = path, file.data
-        elif kind == "sdf" and path.endswith(".sdf"):
+        elif kind == "sdf" and has_ending(path, ".sdf"):
             if b"<link" in file.data or (b"<include" in file.data and b"<world" not in file.data):
                 found.files.append(path)
             else:

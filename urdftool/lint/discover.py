@@ -4,23 +4,28 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 ENDINGS = (".urdf", ".urdf.xacro")
 IGNORED = frozenset(("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"))
 """Files by which colcon, ament and catkin ignore a folder, such as ``install``."""
+_MOST_NAMES = 5  # names that a line lists; chosen, no source
 _HEAD = 16_384
 """Bytes at the start of a file in which ``<robot name=`` must be. Chosen, no source."""
 
 
-def find_descriptions(paths: Iterable[str]) -> list[str]:
+def find_descriptions(paths: Iterable[str], links: list[str] | None = None) -> list[str]:
     """Return the files to check, each once: named files, and descriptions below named folders.
 
     A named path that does not exist is kept, so that it is reported.
+
+    Args:
+        paths: Files and folders.
+        links: List to which links are added that are not followed.
     """
     found: dict[str, str] = {}
     for path in paths:
-        files = list_files(path) if os.path.isdir(path) else [path]
+        files = list_files(path, links=links) if os.path.isdir(path) else [path]
         for file in files:
             found.setdefault(os.path.realpath(file) if file != "-" else file, file)
     return list(found.values())
@@ -38,14 +43,17 @@ def list_parts(paths: Iterable[str], belonging: Collection[str] = ()) -> list[st
     return [
         path
         for path in dict.fromkeys(found)
-        if not path.endswith(ENDINGS) or os.path.realpath(path) in belonging
+        if not has_ending(path, *ENDINGS) or os.path.realpath(path) in belonging
     ]
 
 
 def explain_nothing_found(paths: Iterable[str]) -> str:
     """Return the message for folders without a description, with a ``.xacro`` that may be one."""
     folders = list(paths)
-    message = f"no .urdf or .urdf.xacro below {', '.join(folders)}"
+    links: list[str] = []
+    find_descriptions(folders, links)
+    nothing = f"no .urdf or .urdf.xacro below {', '.join(folders)}"
+    message = "; ".join(filter(None, (nothing, describe_links(links))))
     for folder in folders:
         for path in list_files(folder, (".xacro",)):
             if _has_name(path):
@@ -54,6 +62,18 @@ def explain_nothing_found(paths: Iterable[str]) -> str:
                     "a robot"
                 )
     return message
+
+
+def describe_links(links: Iterable[str]) -> str:
+    """Return ``links not followed: a.urdf``; empty without links."""
+    names = sorted(set(links))
+    return f"links not followed: {shorten_list(names)}" if names else ""
+
+
+def shorten_list(names: Sequence[str]) -> str:
+    """Return the first names, and how many more there are."""
+    more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
+    return f"{', '.join(names[:_MOST_NAMES])}{more}"
 
 
 def _has_name(path: str) -> bool:
@@ -68,15 +88,17 @@ def _has_name(path: str) -> bool:
 def list_files(
     folder: str, endings: tuple[str, ...] = ENDINGS, links: list[str] | None = None
 ) -> Iterator[str]:
-    """Yield the files below a folder by their ending.
+    """Yield the files below a folder by their ending, which may be in capitals.
 
     Hidden folders are skipped, those that builds of ROS ignore, and those in which CMake builds; so
-    are devices, pipes, and links out of the project of the folder, which came with the files.
+    are devices, pipes, and links out of the project of the folder, which came with the files, or to
+    nowhere.
 
     Args:
         folder: The folder.
         endings: Endings of the names.
-        links: List to which links to folders that are not below it are added.
+        links: List to which links are added that are not followed: to folders that are not below
+            it, and skipped ones to files with such an ending.
     """
     for root, folders, files in os.walk(folder):
         if root != folder and _is_of_builds(files):
@@ -87,8 +109,18 @@ def list_files(
             links += _find_links(root, folders, folder)
         for name in sorted(files):
             path = os.path.normpath(os.path.join(root, name))
-            if name.endswith(endings) and _is_own(path, folder):
-                yield path
+            if not has_ending(name, *endings):
+                continue
+            if not os.path.islink(path) or _is_own(path, folder):
+                if os.path.isfile(path):
+                    yield path
+            elif links is not None:
+                links.append(path)
+
+
+def has_ending(path: str, *endings: str) -> bool:
+    """Tell whether a path has one of some endings, in small letters or capitals."""
+    return path.lower().endswith(tuple(ending.lower() for ending in endings))
 
 
 def _find_links(root: str, names: Iterable[str], folder: str) -> list[str]:
@@ -110,11 +142,9 @@ def _is_of_builds(files: Iterable[str]) -> bool:
     return built or not IGNORED.isdisjoint(names)
 
 
-def _is_own(path: str, folder: str) -> bool:
-    """Tell whether a file below a folder is a file, and no link to another project."""
-    if not os.path.isfile(path):
-        return False
+def _is_own(link: str, folder: str) -> bool:
+    """Tell whether a link below a folder leads to something, and not to another project."""
     from ..source.packages import Packages
 
     access = Packages(os.path.join(folder, "-")).access
-    return not (os.path.islink(path) and access.explain_refusal(path))
+    return os.path.exists(link) and not access.explain_refusal(link)

@@ -37,7 +37,7 @@ class Repository:
             that includes them by a computed name can use them.
         paths: Path as found of each xacro and URDF file, by resolved path.
         unknown: Places of launch files and builds that compute the path of a description.
-        links: Links to folders elsewhere, which the search does not follow.
+        links: Links out of the folders or to nowhere, which the search does not follow.
     """
 
     robots: dict[str, RobotFile] = field(default_factory=dict)

@@ -28,7 +28,7 @@ from ..rules.unexpanded import is_part
 from ..source.document import Element, parse, read_file
 from ..source.packages import Packages
 from ..workspace import Workspace
-from .discover import ENDINGS, list_files
+from .discover import ENDINGS, has_ending, list_files
 from .launches import UNKNOWN, Use, read_uses
 from .repository import Repository, RobotFile
 from .variants import list_variant_files
@@ -116,23 +116,23 @@ class _Search:
         if real in self.found.paths:
             return
         self.found.paths[real] = path
-        if path.endswith(ENDINGS):
+        if has_ending(path, *ENDINGS):
             self.found.robots[real] = RobotFile(path, "by its name")
-        if path.endswith(".urdf") and not self._may_be_part(path):
+        if has_ending(path, ".urdf") and not self._may_be_part(path):
             return
         try:
             root = parse(read_file(path, self.workspace)).root
         except UrdftoolError:
-            if path.endswith(".xacro"):
+            if has_ending(path, ".xacro"):
                 self.candidates[real] = "it is not well-formed, and no file includes it"
             return
-        if path.endswith(".urdf"):
+        if has_ending(path, ".urdf"):
             self.found.parts |= {real} if is_part(root) else set()
             return
         self.found.includes[real] = list(self._resolve_includes(path, real, root))
         if not root.get("name"):
             self.nameless.add(real)
-        if not path.endswith(ENDINGS) and root.get("name") and _has_content(root):
+        if not has_ending(path, *ENDINGS) and root.get("name") and _has_content(root):
             self.candidates[real] = "its <robot> has a name and links, and no file includes it"
 
     def _may_be_part(self, path: str) -> bool:
@@ -237,7 +237,7 @@ class _Search:
         if robot is None and real in self.found.paths:
             robot = RobotFile(self.found.paths[real], f"expanded by {place}")
             self.found.robots[real] = robot
-        if robot is None or not real.endswith(".xacro"):
+        if robot is None or not has_ending(real, ".xacro"):
             return
         arguments = dict(use.arguments)
         if arguments not in robot.variants:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from ..rules import FAMILY_OF, get_rule
 from .baseline import Baseline, Entry
-from .discover import ENDINGS
+from .discover import ENDINGS, has_ending
 from .outcome import Outcome
 from .settings import Settings
 
@@ -39,7 +39,7 @@ def _was_read(file: str, files: set[str]) -> bool:
     """Tell whether a file was read, is gone, or is another kind of file above a read one."""
     if file in files or not os.path.exists(file):
         return True
-    if file.endswith((*ENDINGS, ".xacro")):
+    if has_ending(file, *ENDINGS, ".xacro"):
         return False
     folder = os.path.join(os.path.dirname(file), "")
     return any(path.startswith(folder) for path in files)
