@@ -279,7 +279,7 @@ def test_where_only_links_are_they_are_named(linked, urdftool):
     Path("a.urdf").unlink()
     result = urdftool("lint", ".")
     assert result.code == 2
-    assert result.err.splitlines()[0].endswith("; links not followed: ./b.urdf, ./own.urdf")
+    assert result.err.splitlines()[0].endswith("; links not followed: b.urdf, own.urdf")
 
 
 def test_a_link_within_a_repository_is_followed(linked, urdftool):

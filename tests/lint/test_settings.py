@@ -130,3 +130,24 @@ def test_whatever_is_wrong_in_it_names_what_would_be_right(write, urdftool, text
     assert result.code == 2
     assert message in result.err
     assert "urdftool.toml: " in result.err
+
+
+@pytest.mark.parametrize(
+    "options", [("--select", ""), ("--ignore", "*"), ("--select", "mesh", "--ignore", "mesh")]
+)
+def test_options_that_leave_no_rule_are_refused(write, urdftool, options):
+    result = urdftool("lint", write("r.urdf", "<robot name='r'><link/></robot>"), *options)
+    assert result.code == 2
+    assert "leave no rule" in result.err
+    assert "no findings" not in result.err
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["[lint]\nselect = []", "[lint]\nignore = ['*']", "[lint.per-file-ignores]\n'*' = ['all']"],
+)
+def test_a_robot_whose_configuration_leaves_no_rule_is_skipped(write, urdftool, text):
+    write("urdftool.toml", text)
+    result = urdftool("lint", write("r.urdf", "<robot name='r'><link/></robot>"))
+    assert result.err.endswith("r.urdf: skipped, its configuration leaves no rule\n")
+    assert urdftool("lint", write("s.urdf", "<robot")).code == 2

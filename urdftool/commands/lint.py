@@ -265,6 +265,8 @@ def _check_paths(
         ignore=check_selectors(ignore),
         targets=check_targets(target),
     )
+    if not settings.get_names():
+        raise click.UsageError("--select and --ignore leave no rule; --list-rules lists all")
     _warn_of_old_names(console, (*select, *extend_select, *ignore), files, workspace)
     for option, given in (("--unsafe-fixes", unsafe_fixes), ("--fix-meshes", fix_meshes)):
         if given and not (fix or diff):

@@ -269,6 +269,8 @@ def _check_description(
     report.targets = targets
     report.files = tuple(file.path for file in description.files)
     report.format = "urdf" if robot is None else robot.format
+    if robot is not None and not settings.get_names():
+        report.skipped = "its configuration leaves no rule"
     rules = _select_rules(settings, targets, description, report.format)
     if report.format != "urdf":
         rules = [rule for rule in rules if report.format in rule.formats]
