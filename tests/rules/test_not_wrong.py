@@ -368,11 +368,31 @@ def test_a_damaged_file_says_what_is_in_it(tmp_path, urdftool, text, line, colum
     assert said in shown
 
 
-@pytest.mark.parametrize(("use", "level"), [("$(arg dir)", "INFO"), ("${dir}", "ERROR")])
-def test_a_part_with_arguments_of_another_file_is_no_error(tmp_path, use, level):
-    write(tmp_path, {"tool.urdf": mesh(f"{use}/a.stl")})
-    found = find(tmp_path / "tool.urdf", "unexpanded-expression")
-    assert [severity for _, severity, _ in found] == [level]
+@pytest.mark.parametrize(
+    ("use", "include", "level"),
+    [
+        ("$(arg dir)", "$(arg dir)/tool.urdf", "INFO"),
+        ("$(arg dir)", "tools/$(arg tool).urdf", "INFO"),
+        ("$(arg dir)", "tools/$(arg tool).xacro", "ERROR"),
+        ("$(arg dir)", "other.urdf", "ERROR"),
+        ("${dir}", "$(arg dir)/tool.urdf", "ERROR"),
+    ],
+)
+def test_a_part_with_arguments_of_a_file_that_includes_it_is_no_error(
+    tmp_path, use, include, level
+):
+    top = f'<robot name="r" xmlns:xacro="x"><xacro:include filename="{include}"/></robot>'
+    write(tmp_path, {"tool.urdf": mesh(f"{use}/a.stl"), "top.xacro": top})
+    [(_, severity, message)] = find(tmp_path / "tool.urdf", "unexpanded-expression")
+    assert severity == level
+    assert ("top.xacro: check that" in message) == (level == "INFO")
+
+
+def test_a_file_with_arguments_that_no_file_includes_is_an_error(tmp_path):
+    write(tmp_path, {"tool.urdf": mesh("$(arg dir)/a.stl")})
+    [(_, severity, message)] = find(tmp_path / "tool.urdf", "unexpanded-expression")
+    assert severity == "ERROR"
+    assert "part of" not in message
 
 
 @pytest.mark.parametrize(("value", "count"), [("0", 0), ("0.5", 1)])

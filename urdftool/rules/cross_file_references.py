@@ -103,16 +103,21 @@ def check_not_included(context: FixContext) -> None:
         raise RefusedError(f"{user} includes {name}, and would get the element too")
 
 
-def find_including_file(description: Description) -> str:
+def find_including_file(description: Description, *, computed: bool = False) -> str:
     """Find a xacro file that includes a description; empty if none does.
 
     It searches the packages of the workspace: a gripper that is a robot by itself for tests is
     often part of an arm in another package.
+
+    Args:
+        description: The description.
+        computed: Whether a file counts that includes one of a computed name which ends like it.
     """
     packages, workspace = description.packages, description.workspace
     file, own = packages.file, packages.own
     for folder in packages.list_neighbors():
-        for user, reference in _find_includes(workspace, str(folder)).get(file.name, ()):
+        includes = _find_includes(workspace, str(folder))
+        for user, reference in includes.get(file.name, ()):
             found = _FIND.match(reference)
             if found is not None:
                 is_this = own is not None and found[1] == own[0]
@@ -122,9 +127,13 @@ def find_including_file(description: Description) -> str:
                 is_this = "$" in reference or real_path(there) == real_path(file)
             if is_this:
                 return shorten_path(user)
+        for name, uses in includes.items() if computed else ():
+            if "$" in name and file.name.endswith(_AFTER_EXPRESSION.sub("", name)):
+                return shorten_path(uses[0][0])
     return ""
 
 
+_AFTER_EXPRESSION = re.compile(r"^.*[)}]", re.DOTALL)
 _FIND = re.compile(r"\$\(find\s+([\w.-]+)\s*\)")
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from ...source.description import Description
 from ...source.document import Element
 from ...source.location import Place
+from ..cross_file_references import find_including_file
 from ..fix import (
     FixContext,
     Proposal,
@@ -42,8 +43,8 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
     Either ``$`` is missing before a brace (``{prefix}``), or ``$${…}`` is an escape, or the file
     with ``${…}`` is not expanded. The text itself becomes the name, the number or the reference, so
     names do not match, without a message. A URDF with many of them is a xacro file without
-    ``xmlns:xacro``; this is one finding. A file that uses arguments with ``$(arg …)`` and declares
-    none is a part that another file includes, which is an info.
+    ``xmlns:xacro``; this is one finding. It is an info for a file that uses arguments with
+    ``$(arg …)``, declares none, and is included by a file of a package around it.
     """
     root = description.document.root
     written = (element for element in root.walk() if _may_be_unexpanded(element))
@@ -56,9 +57,9 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
             others = "place" if len(found) == 2 else "places"
             more = f" (and in {len(found) - 1} other {others})" if len(found) > 1 else ""
             braced = _BRACED.search(text)
-            part = is_part(root)
-            if part:
-                remedy = "its argument is declared in the file that includes this one: check that"
+            user = find_including_file(description, computed=True) if is_part(root) else ""
+            if user:
+                remedy = f"this file may be a part of {user}: check that"
             elif braced and "${" not in text and "$(" not in text:
                 remedy = f"write the value of '{braced[0]}'"
             else:
@@ -71,7 +72,7 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 element,
                 f"'{_shorten(text)}' is not expanded{more}; {remedy}",
                 at=place,
-                severity=INFO if part else WARNING if meant else None,
+                severity=INFO if user else WARNING if meant else None,
                 effects=_select_effects(element),
             )
         return
