@@ -30,6 +30,27 @@ def test_just_beyond_the_bound(function, arguments):
         function(*arguments)
 
 
+@pytest.mark.parametrize(
+    ("function", "arguments", "limit"),
+    [
+        (safe_builtins.make_range, (10**10,), "the range exceeds the limit of 1000000 numbers"),
+        (safe_builtins.round_number, (1.5, 401), "rounding exceeds the limit of 400 digits"),
+        (safe_builtins.MATH["lcm"], (2,) * 101, "the function exceeds the limit of 100 arguments"),
+        (safe_builtins.MATH["factorial"], (5001,), "the argument exceeds the limit of 5000"),
+        (safe_builtins.compute_power, (2, 10**6), "the number exceeds the limit of 100000 bits"),
+    ],
+)
+def test_the_limit_that_is_exceeded_is_named(function, arguments, limit):
+    with pytest.raises(OverflowError, match=limit):
+        function(*arguments)
+
+
+def test_what_xacro_wraps_is_said_once(write, urdftool):
+    text = '<robot name="r" xmlns:xacro="x"><link name="$(eval 1/0)"/></robot>'
+    result = urdftool("expand", write("r.xacro", text))
+    assert result.err.count("division by zero") == 1
+
+
 def test_within_the_bounds_it_is_pythons_own():
     assert safe_builtins.multiply(TEXT, 2) == TEXT * 2
     assert safe_builtins.add([1], [2]) == [1, 2]

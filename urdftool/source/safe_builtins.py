@@ -102,8 +102,8 @@ def make_range(*bounds: Any) -> range:
         OverflowError: It has more than ``MAX_RANGE`` numbers.
     """
     numbers = range(*bounds)
-    if numbers and abs(numbers[-1] - numbers[0]) // abs(numbers.step) >= MAX_RANGE:
-        raise _make_size_error()
+    count = abs(numbers[-1] - numbers[0]) // abs(numbers.step) + 1 if numbers else 0
+    _refuse_above(MAX_RANGE, count, "the range", "numbers")
     return numbers
 
 
@@ -120,8 +120,8 @@ def round_number(number: Any, digits: Any = None) -> Any:
     Raises:
         OverflowError: ``digits`` exceeds ``MAX_DIGITS``.
     """
-    if isinstance(digits, int) and abs(digits) > MAX_DIGITS:
-        raise _make_size_error()
+    if isinstance(digits, int):
+        _refuse_above(MAX_DIGITS, abs(digits), "rounding", "digits")
     return round(number, digits)
 
 
@@ -136,8 +136,10 @@ def limit_arguments(function: Callable[..., Any]) -> Callable[..., Any]:
     """Wrap a function of integers: at most 100 arguments, none above 5000."""
 
     def small(*arguments: Any) -> Any:
-        if len(arguments) > 100 or any(isinstance(n, int) and n > 5000 for n in arguments):
-            raise _make_size_error()
+        _refuse_above(100, len(arguments), "the function", "arguments")
+        for number in arguments:
+            if isinstance(number, int) and number > 5000:
+                raise OverflowError("the argument exceeds the limit of 5000")
         return function(*arguments)
 
     return small
@@ -223,8 +225,7 @@ def _replace(text: str, old: str, new: str, *count: int) -> str:
 
 def _limit_padding(name: str) -> Callable[..., str]:
     def pad(text: str, width: int, *fill: str) -> str:
-        if width > MAX_WIDTH:
-            raise _make_size_error()
+        _refuse_above(MAX_WIDTH, width, "the width", "characters")
         return str(getattr(text, name)(width, *fill))
 
     return pad
@@ -402,13 +403,11 @@ def check_format(spec: str) -> None:
 
 
 def _refuse_bits(bits: int) -> None:
-    if bits > MAX_BITS:
-        raise _make_size_error()
+    _refuse_above(MAX_BITS, bits, "the number", "bits")
 
 
 def _refuse_length(length: int) -> None:
-    if length > MAX_LENGTH:
-        raise OverflowError(f"the text or list exceeds the limit of {MAX_LENGTH} characters")
+    _refuse_above(MAX_LENGTH, length, "the text or list", "characters or elements")
 
 
 def _refuse_width(spec: str) -> None:
@@ -416,5 +415,6 @@ def _refuse_width(spec: str) -> None:
         raise OverflowError("the format width exceeds the limit of 4 digits")
 
 
-def _make_size_error() -> OverflowError:
-    return OverflowError(f"the number exceeds the limit of {MAX_BITS} bits")
+def _refuse_above(limit: int, value: int, what: str, unit: str) -> None:
+    if value > limit:
+        raise OverflowError(f"{what} exceeds the limit of {limit} {unit}")
