@@ -67,6 +67,16 @@ def test_a_contact_sheet_and_a_picture_at_once(urdftool, write):
     assert pixels("s.png").shape == (layout.height, layout.width, 3)
 
 
+def test_a_pose_beyond_a_limit_is_said(urdftool, write):
+    path = write("r.urdf", ARM)
+    for value, count in (("0.5", 0), ("50", 1)):
+        done = urdftool(
+            "view", path, "--picture", "p.png", "--size", "80x60", "--pose", f"j={value}"
+        )
+        assert done.code == 0, done.err
+        assert done.err.count(f"joint 'j' at {value} is beyond its limits, ") == count
+
+
 def test_no_joint_moves(urdftool, write):
     path = write("r.urdf", ROBOT.format(""))
     done = urdftool("view", path, "--contact-sheet", "s.png")

@@ -50,6 +50,13 @@ def test_one_fact_of_many_links_is_one_finding_with_its_names(write, urdftool):
     assert [instance["name"] for instance in found["instances"]] == list("bcdefgh")
 
 
+@pytest.mark.parametrize("style", ["json", "sarif", "github", "junit", "html"])
+def test_formats_for_programs_have_no_statistics(write, urdftool, style):
+    result = urdftool("lint", write("r.urdf", "<robot/>"), "--statistics", "--format", style)
+    assert (result.code, result.out) == (2, "")
+    assert f"--statistics and --format {style} exclude each other" in result.err
+
+
 def test_statistics_count_groups_and_their_places(write, urdftool):
     path = write("r.urdf", robot(*"abcdefgh"))
     result = urdftool("lint", path, *ONLY, "--statistics")

@@ -271,6 +271,8 @@ def _check_paths(
     for option, given in (("--unsafe-fixes", unsafe_fixes), ("--fix-meshes", fix_meshes)):
         if given and not (fix or diff):
             raise click.UsageError(f"{option} requires --fix or --diff")
+    if statistics and style not in (None, "full", "concise"):
+        raise click.UsageError(f"--statistics and --format {style} exclude each other")
     folder = choose_cache_folder("lint", cache_dir, no_cache or no_expand)
     options.settings, options.gltf_up = settings, console.gltf_up
     options.read_other = read_other_format

@@ -189,13 +189,15 @@ def write_pictures(
     from ..drawing.shapes import read_robot_shapes
     from ..errors import ModelError
     from ..model.files import list_sources
-    from ..model.kinematics import check_positions, compute_link_poses
+    from ..model.kinematics import check_positions, compute_link_poses, explain_beyond_limits
     from ..output import check_targets
 
     check_pictures(picture, contact_sheet)
     check_targets((picture, contact_sheet), inputs=sorted(list_sources(robot)))
     positions = dict(pose or {})
     check_positions(robot, positions)
+    for message in explain_beyond_limits(robot, positions).values():
+        console.print_note(message)
     pixels = _limit_pixels(robot, size or SIZE, camera, is_sheet=picture is None)
     with Progress(console, "meshes") as progress:
         shapes = read_robot_shapes(robot, show=show, progress=progress, pixels=pixels)

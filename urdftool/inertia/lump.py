@@ -13,7 +13,13 @@ from ..diagnostic import Diagnostic, Severity
 from ..lint.validate import validate
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..model.elements import Link, Robot
-from ..model.kinematics import add_mimic_positions, check_positions, get_limits, link_poses
+from ..model.kinematics import (
+    add_mimic_positions,
+    check_positions,
+    explain_beyond_limits,
+    get_limits,
+    link_poses,
+)
 from .inertia_error import InertiaError
 from .link_review import LinkReview
 from .requirements import combine
@@ -111,11 +117,9 @@ def _make_note(code: str, message: str, link: Link) -> Diagnostic:
 
 def _list_beyond_limits(robot: Robot, positions: Mapping[str, float]) -> list[Diagnostic]:
     notes = []
-    for name, value in positions.items():
+    for name, message in explain_beyond_limits(robot, positions).items():
         low, high = get_limits(robot.joint[name])
-        if low < high and not low <= value <= high:
-            message = f"joint '{name}' at {value:g} is beyond its limits, {low:g} to {high:g}"
-            data = {"joint": name, "position": value, "lower": low, "upper": high}
-            place = robot.joint[name].place
-            notes.append(Diagnostic("beyond-limits", Severity.INFO, message, place, data=data))
+        data = {"joint": name, "position": positions[name], "lower": low, "upper": high}
+        place = robot.joint[name].place
+        notes.append(Diagnostic("beyond-limits", Severity.INFO, message, place, data=data))
     return notes

@@ -148,6 +148,16 @@ def get_limits(joint: Joint) -> tuple[float, float]:
     return joint.limit.lower or 0.0, joint.limit.upper or 0.0
 
 
+def explain_beyond_limits(robot: Robot, positions: Mapping[str, float]) -> dict[str, str]:
+    """Return a message for each position of a joint [rad, m] that is beyond its limits, by name."""
+    found = {}
+    for name, value in positions.items():
+        low, high = get_limits(robot.joint[name])
+        if low < high and not low <= value <= high:
+            found[name] = f"joint '{name}' at {value:g} is beyond its limits, {low:g} to {high:g}"
+    return found
+
+
 def follow_mimic_chain(joint: Joint, movable: Mapping[str, Joint]) -> tuple[str, float, float]:
     """Follow the ``<mimic>`` chain of a joint.
 
