@@ -203,9 +203,12 @@ def test_three_files_name_the_one_that_is_alone(urdftool, write):
 
 @pytest.mark.parametrize("rows", ["textures", "loops,plugins"])
 def test_robots_without_what_is_compared_are_not_called_equal(urdftool, write, rows):
-    result = urdftool("verify", write("a.urdf", URDF), write("b.urdf", URDF), "--only", rows)
-    assert result.code == 0
+    words = ("verify", write("a.urdf", URDF), write("b.urdf", URDF), "--only", rows)
+    result = urdftool(*words)
+    assert result.code == 1
     assert "2 robots: nothing was compared" in result.err
+    report = json.loads(urdftool(*words, "--format", "json").out)
+    assert (report["equal"], report["pairs"][0]["equal"]) == (False, False)
 
 
 def test_equal_robots(urdftool, write):

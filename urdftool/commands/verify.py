@@ -83,7 +83,7 @@ def command(
         urdftool verify arm.urdf model.sdf arm.xml --only frames,mass
         urdftool verify a.urdf b.xml --map names.txt --format json
 
-    Exit code 1: the robots differ, or a mesh or part was not read.
+    Exit code 1: the robots differ, a mesh or part was not read, or nothing was compared.
     """  # noqa: D301 -- click reads the escape
     from ..compare.correspondence import Correspondence, read_correspondence
     from ..compare.rows import limit_tolerances, select_rows

@@ -228,6 +228,11 @@ class Comparison:
         """Tell whether nothing but conventions differs, and all was read that a row compares."""
         return not self.is_different and all(one.kind not in COUNTED for one in self.uncompared)
 
+    @property
+    def has_compared(self) -> bool:
+        """Tell whether a row compared something that one of the two has."""
+        return any(check.verdict not in ("none", "not compared") for check in self.make_checks())
+
     def make_checks(self) -> list[Check]:
         """Return a row of the table for each property that was compared."""
         checks = []

@@ -88,8 +88,13 @@ class Agreement:
 
     @property
     def is_equal(self) -> bool:
-        """Tell whether no pair differs in more than conventions, and all that counts was read."""
-        return all(comparison.is_equal for comparison in self.pairs.values())
+        """Tell whether a row compared something, no pair differs, and all that counts was read."""
+        return self.has_compared and all(one.is_equal for one in self.pairs.values())
+
+    @property
+    def has_compared(self) -> bool:
+        """Tell whether a row compared something that one of the robots has."""
+        return any(comparison.has_compared for comparison in self.pairs.values())
 
     @property
     def count(self) -> int:

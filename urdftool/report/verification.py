@@ -37,7 +37,7 @@ def to_json(paths: Sequence[str], agreement: Agreement) -> str:
         "pairs": [
             {
                 "files": list(pair),
-                "equal": comparison.is_equal,
+                "equal": comparison.has_compared and comparison.is_equal,
                 "checks": [check.as_dict() for check in comparison.make_checks()],
                 "skipped": comparison.list_skipped(),
                 "not_comparable": comparison.not_comparable,
@@ -180,12 +180,6 @@ def _format_rest(agreement: Agreement) -> str:
     return "\n" + "".join(lines) + f"not compared: {', '.join(NOT_COMPARED)}\n"
 
 
-def _has_compared(agreement: Agreement) -> bool:
-    """Tell whether a row compared something that one of the robots has."""
-    checks = (check for one in agreement.pairs.values() for check in one.make_checks())
-    return any(check.verdict not in ("none", "not compared") for check in checks)
-
-
 _UNKNOWN = {
     MESHES: "meshes were not read",
     UNREAD: "parts that are compared were not read",
@@ -203,7 +197,7 @@ def _explain_unknown(agreement: Agreement) -> str:
 
 def _describe_verdict(agreement: Agreement) -> str:
     """Describe the result of robots without a difference that was found."""
-    if not _has_compared(agreement):
+    if not agreement.has_compared:
         return "nothing was compared"
     if not agreement.is_equal:
         return f"no difference was found, but {_explain_unknown(agreement)}"
