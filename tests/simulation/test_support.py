@@ -128,10 +128,12 @@ def test_a_rover_on_wheels_and_caster_has_neither(write):
     }
 
 
-def test_without_gravity_nothing_need_carry(write):
+@pytest.mark.parametrize("height", [None, 1.0])
+def test_without_gravity_nothing_stands(write, height):
     more = '<gazebo reference="a"><turnGravityOff>1</turnGravityOff></gazebo></robot>'
-    verdict = _judged(write, BOX.replace("</robot>", more))
-    assert kinds(verdict) == set()
+    verdict = _judged(write, BOX.replace("</robot>", more), height=height)
+    assert kinds(verdict) == {"unsupported"}
+    assert "no gravity acts on the robot" in verdict.faults[0].message
     assert np.isfinite(verdict.run.recording.poses).all()
 
 

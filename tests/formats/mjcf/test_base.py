@@ -35,12 +35,24 @@ def biped(word):
     return robot(link("trunk", TRUNK), *(limb(name, at, FOOT) for name, at in sides.items()))
 
 
+def waist(*limbs):
+    bare = INERTIAL.replace('value="1"', 'value="0.01"')
+    return robot(link("trunk", TRUNK), limb("waist", "0 0 -0.1", bare), *limbs)
+
+
+def biped_below_waist(upper, foot):
+    sides = {"left": "0 0.1 0", "right": "0 -0.1 0"}
+    uppers = [limb(f"{s}_{upper}", at, INERTIAL, "waist") for s, at in sides.items()]
+    return waist(*uppers, *(limb(f"{s}_{foot}", "0 0 0", FOOT, f"{s}_{upper}") for s in sides))
+
+
 PEDESTAL = solid('<box size="0.1 0.1 0.5"/>', "0 0 -0.25")
 
 FREE = {
     "quadruped": quadruped(),
     "biped": biped("foot"),
     "biped without a telling name": biped("end"),
+    "biped below a waist": biped_below_waist("knee", "end"),
     "quadruped with an arm": quadruped().replace(
         "</robot>", limb("arm", "0.2 0 0.1", solid('<sphere radius="0.1"/>')) + "</robot>"
     ),
@@ -63,6 +75,11 @@ HELD = {
         link("trunk", TRUNK), limb("joint1_rotor", "0 0 0.1"), limb("joint2_rotor", "0 0 1", LEG)
     ),
     "one leg": robot(link("trunk", TRUNK), limb("leg", "0 0 0")),
+    "arms below a waist": biped_below_waist("upper", "end"),
+    "one leg with two toes": waist(
+        limb("left_toe", "0 0.1 0", FOOT, "waist"), limb("right_toe", "0 -0.1 0", FOOT, "waist")
+    ),
+    "hand of two named fingers": quadruped(("index", "ring", "pinky", "thumb")),
     "hand of three fingers": quadruped(("finger_1", "finger_2", "finger_3", "thumb")),
     "arm": robot(
         link("trunk", TRUNK), limb("upper", "0 0 0.1"), limb("lower", "0 0 1", LEG, "upper")
@@ -100,6 +117,20 @@ def test_what_does_not_is_held(write, name):
     written = export(write("r.urdf", HELD[name]))
     assert not is_free(written)
     assert written.summary[0] == "fixed base (the description has no sign of a mobile base)"
+
+
+@pytest.mark.parametrize(
+    ("shape", "why"),
+    [
+        ("", "no link has a collision, so a free one would fall through the ground"),
+        ('<mesh filename="no.stl"/>', "no collision geometry can be read"),
+    ],
+)
+def test_why_nothing_can_stand_is_said(write, shape, why):
+    inside = solid(shape) if shape else INERTIAL
+    legs = (limb(f"{side}_leg", "0 0 0", inside) for side in ("left", "right"))
+    written = export(write("r.urdf", robot(link("trunk", inside), *legs)), force=True)
+    assert written.summary[0] == f"fixed base ({why})"
 
 
 WHEEL = solid('<sphere radius="0.1"/>')

@@ -12,7 +12,7 @@ from ..written import Written
 from .option import Base
 from .rigid_tree import RigidTree
 from .shape_box import ShapeBoxes
-from .standing import explain_free_base
+from .standing import explain_free_base, measure_ground
 
 
 def decide_base(
@@ -39,7 +39,7 @@ def decide_base(
         return free, reason
     standing = explain_free_base(tree, boxes, home)
     if standing is None:
-        return False, "the description has no sign of a mobile base"
+        return False, _explain_fixed_base(tree, boxes, home)
     written.report_loss(
         "free-base",
         f"root link '{tree.root.name}' has a free base: {standing}; --base fixed fixes it to the "
@@ -50,6 +50,15 @@ def decide_base(
         severity=Severity.INFO,
     )
     return True, standing
+
+
+def _explain_fixed_base(tree: RigidTree, boxes: ShapeBoxes, home: Mapping[str, float]) -> str:
+    """Say why nothing shows that the root is free."""
+    if not any(link.collisions for link in tree.robot.links):
+        return "no link has a collision, so a free one would fall through the ground"
+    if measure_ground(tree, boxes, home) is None:
+        return "no collision geometry can be read"
+    return "the description has no sign of a mobile base"
 
 
 def _find_defined(tree: RigidTree, base: Base, virtual_joint: str | None) -> tuple[bool, str]:

@@ -18,7 +18,7 @@ from ...model.start import compute_allowed_range
 from .base_pose import compute_level_poses
 from .rigid_tree import RigidTree
 from .shape_box import ShapeBoxes
-from .standing import get_chain, list_leg_ends
+from .standing import find_leg_chains
 
 Array = npt.NDArray[np.float64]
 
@@ -78,15 +78,15 @@ def find_legs(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]
     poses = compute_level_poses(tree.robot, positions)
     return [
         leg
-        for end in list_leg_ends(tree, boxes, positions)
-        if (leg := _make_leg(tree, poses, end)) is not None
+        for chain in find_leg_chains(tree, boxes, positions).values()
+        if (leg := _make_leg(tree, poses, chain)) is not None
     ]
 
 
-def _make_leg(tree: RigidTree, poses: Mapping[str, Pose], end: str) -> Leg | None:
-    """Return the leg above a foot; None if not two or three joints of it are parallel and level."""
+def _make_leg(tree: RigidTree, poses: Mapping[str, Pose], chain: Sequence[str]) -> Leg | None:
+    """Return the leg of a chain; None if not two or three joints of it are parallel and level."""
     groups: list[tuple[Array, list[Joint]]] = []
-    for body in get_chain(tree, end):
+    for body in chain:
         joint = tree.robot.tree.get_parent_joint(body)
         if joint is None or joint.type not in ("revolute", "continuous") or joint.mimic is not None:
             continue
@@ -102,7 +102,7 @@ def _make_leg(tree: RigidTree, poses: Mapping[str, Pose], end: str) -> Leg | Non
     best = max((joints for _, joints in groups), key=len, default=[])
     if len(best) not in (2, 3):
         return None
-    return Leg(best[0], best[1], best[2] if len(best) == 3 else None, end)
+    return Leg(best[0], best[1], best[2] if len(best) == 3 else None, chain[-1])
 
 
 def _get_axis(joint: Joint, poses: Mapping[str, Pose]) -> Array:

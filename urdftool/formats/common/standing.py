@@ -6,10 +6,11 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import PurePath
 
 from ...model.drives import get_commanded_joints
-from ...model.elements import Joint
+from ...model.elements import Joint, Link
 from ...model.kinematics import link_poses
 from ...model.pose import Pose, rotate
 from .base_pose import compute_level_poses
@@ -50,8 +51,8 @@ FLYING = frozenset(("quadrotor", "quadcopter", "hexarotor", "hexacopter", "multi
 """Words in the name of a robot, or of its file, that flies."""
 
 LEGS = FEET | {"knee", "hip", "thigh", "wheel", "track"}
-HANDS = frozenset(("hand", "gripper", "finger", "thumb", "palm", "wrist", "arm", "forearm",
-                   "upperarm", "tool"))  # fmt: skip
+HANDS = frozenset(("hand", "gripper", "finger", "fingertip", "thumb", "index", "ring", "pinky",
+                   "palm", "wrist", "arm", "forearm", "upperarm", "tool"))  # fmt: skip
 """Words in the names of links that do not support a robot, unless a word of ``LEGS`` occurs."""
 
 
@@ -131,8 +132,9 @@ def explain_free_base(
     The base floats if the robot stands on a driven wheel or on two wheels; if only bodies that move
     relative to the root reach the ground: on two or more chains, below the center of mass, and not
     named like hands; if two or more chains end in links named like feet or legs; or if it flies, by
-    the names of its rotors, its own or that of its file. A robot without collision geometry has a
-    fixed base.
+    the names of its rotors, its own or that of its file. Chains that begin with the same joints, as
+    legs below a waist, count from where they part. A robot without collision geometry has a fixed
+    base.
 
     Args:
         tree: The rigid bodies.
@@ -145,15 +147,16 @@ def explain_free_base(
         return flying
     commanded = get_commanded_joints(tree.robot)
     branches = [j for j in tree.moving if tree.group[j.parent] == tree.root.name]
-    if not commanded and len(branches) < 2:
-        return None
+    may_roll = bool(commanded) or len(branches) > 1
+    if not may_roll and any(joint.type in ("floating", "planar") for joint in branches):
+        return None  # a joint moves the robot already
     ground = measure_ground(tree, boxes, positions)
     if ground is None:
         return None
     stands, poses = ground.get_near(LEVEL), compute_level_poses(tree.robot, positions)
     wheels = [
         joint.name
-        for joint in tree.moving
+        for joint in (tree.moving if may_roll else ())
         if joint.child in stands and joint.type == "continuous"
         if is_wheel(joint, poses[joint.child], ground)
     ]
@@ -187,7 +190,7 @@ def _describe_feet(
     stands = [body for body in stands if body != tree.root.name]
     chains = {body: get_chain(tree, body) for body in stands}
     stands = [body for body in stands if not _is_hand(chains[body])]
-    if len({chains[body][0] for body in stands}) < 2:
+    if len({chain[0] for chain in _keep_own({b: chains[b] for b in stands}).values()}) < 2:
         return None
     feet = (
         box for body in stands for box in ground.boxes[body] if box[0][2] <= _compute_top(ground)
@@ -201,12 +204,13 @@ def _describe_feet(
 def _describe_legs(tree: RigidTree) -> str | None:
     """Describe the legs of a robot, by the names of its links, independent of the pose."""
     inner = {tree.group[joint.parent] for joint in tree.moving}
-    legs: dict[str, str] = {}
-    for body, members in tree.members.items():
-        words = {word for link in members for word in _split_words(link.name)}
-        if body not in inner and words & FEET:
-            legs.setdefault(get_chain(tree, body)[0], body)
-    return f"it has legs: {_format_listed(list(legs.values()))}" if len(legs) > 1 else None
+    chains = {
+        body: get_chain(tree, body)
+        for body, members in tree.members.items()
+        if body not in inner and _has_word(members, FEET)
+    }
+    legs = _keep_first(_keep_own(chains))
+    return f"it has legs: {_format_listed(list(legs))}" if len(legs) > 1 else None
 
 
 def _describe_flight(tree: RigidTree) -> str | None:
@@ -252,26 +256,58 @@ def is_wheel(joint: Joint, pose: Pose, ground: Ground) -> bool:
     return centered and abs(z) <= UPRIGHT * length and (is_round or not is_aligned)
 
 
-def list_leg_ends(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]) -> list[str]:
-    """List the rigid bodies that end chains near the ground, or are named like feet; one a chain.
+def find_leg_chains(
+    tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]
+) -> dict[str, list[str]]:
+    """Find the rigid bodies that end chains near the ground, or are named like feet; one a chain.
 
     Args:
         tree: The rigid bodies.
         boxes: Boxes of its shapes.
         positions: Joint positions [rad, m].
+
+    Returns:
+        The rigid bodies from the trunk (excluded) to each, by its name.
     """
     ground = measure_ground(tree, boxes, positions)
     near = set() if ground is None else set(ground.get_near(LEVEL))
     inner = {tree.group[joint.parent] for joint in tree.moving}
-    ends: dict[str, str] = {}
-    for body, members in tree.members.items():
-        words = {word for link in members for word in _split_words(link.name)}
-        if body in inner or body == tree.root.name or not (body in near or words & FEET):
-            continue
-        chain = get_chain(tree, body)
-        if not _is_hand(chain):
-            ends.setdefault(chain[0], body)
-    return list(ends.values())
+    chains = {
+        body: get_chain(tree, body)
+        for body, members in tree.members.items()
+        if body not in inner and body != tree.root.name
+        if body in near or _has_word(members, FEET)
+    }
+    return _keep_first(_keep_own({b: chain for b, chain in chains.items() if not _is_hand(chain)}))
+
+
+def _keep_own(chains: Mapping[str, list[str]]) -> dict[str, list[str]]:
+    """Return chains without the bodies that all have, such as a waist above both legs.
+
+    They stay as they are if a rest is not a leg: a single body, as a toe, or named like no part of
+    a leg.
+    """
+    in_step = zip(*chains.values(), strict=False)
+    shared = sum(1 for _ in takewhile(lambda bodies: len(set(bodies)) == 1, in_step))
+    own = {body: chain[shared:] for body, chain in chains.items()}
+    if all(len(chain) > 1 and LEGS & _list_words(chain) for chain in own.values()):
+        return own
+    return dict(chains)
+
+
+def _keep_first(chains: Mapping[str, list[str]]) -> dict[str, list[str]]:
+    """Return the first of the chains that begin with the same body."""
+    found = {chain[0]: body for body, chain in reversed(chains.items())}
+    return {body: chain for body, chain in chains.items() if found[chain[0]] == body}
+
+
+def _has_word(links: Iterable[Link], words: Set[str]) -> bool:
+    """Tell whether the name of a link contains one of some words."""
+    return bool(words & _list_words(link.name for link in links))
+
+
+def _list_words(names: Iterable[str]) -> set[str]:
+    return {word for name in names for word in _split_words(name)}
 
 
 def get_chain(tree: RigidTree, body: str) -> list[str]:
@@ -286,7 +322,7 @@ def get_chain(tree: RigidTree, body: str) -> list[str]:
 
 
 def _is_hand(chain: Iterable[str]) -> bool:
-    words = {word for link in chain for word in _split_words(link)}
+    words = _list_words(chain)
     return not words & LEGS and bool(words & HANDS)
 
 

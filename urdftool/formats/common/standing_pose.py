@@ -21,7 +21,7 @@ from .home_positions import STAND, HomePositions
 from .legs import Bends, Leg, find_legs, list_bends
 from .rigid_tree import RigidTree
 from .shape_box import ShapeBoxes
-from .standing import CLEARANCE, LEVEL, Ground, list_leg_ends, measure_ground
+from .standing import CLEARANCE, LEVEL, Ground, find_leg_chains, measure_ground
 from .support import (
     CONTACT,
     compute_center,
@@ -120,7 +120,7 @@ def choose_standing_positions(
         ModelError: The user asks for it, and the robot has no legs that can be bent.
     """
     legs = find_legs(tree, boxes, home.values)
-    ends = list_leg_ends(tree, boxes, home.values)
+    ends = find_leg_chains(tree, boxes, home.values)
     joints = {joint.name for leg in legs for joint in leg.joints}
     is_whole = len(legs) > 1 and len(legs) == len(ends)
     if not home.stands and not (

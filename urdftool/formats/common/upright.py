@@ -17,7 +17,7 @@ from .base_pose import get_robot_origin
 from .legs import find_legs
 from .rigid_tree import RigidGroups, RigidTree
 from .shape_box import ShapeBoxes
-from .standing import LEVEL, describe_feet, list_leg_ends, measure_ground
+from .standing import LEVEL, describe_feet, find_leg_chains, measure_ground
 from .standing_pose import MARGIN, compute_standing_margin, compute_standing_positions
 
 Y_UP: Vector = (math.pi / 2, 0.0, 0.0)
@@ -61,7 +61,7 @@ def turn_upright(
 
 def _can_stand(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]) -> bool:
     """Tell whether a robot stands on the ends of all its legs, as it is or with bent legs."""
-    ends, ground = list_leg_ends(tree, boxes, positions), measure_ground(tree, boxes, positions)
+    ends, ground = find_leg_chains(tree, boxes, positions), measure_ground(tree, boxes, positions)
     if ground is None or len(ends) < 2:
         return False
     is_level = set(ends) <= set(ground.get_near(LEVEL))

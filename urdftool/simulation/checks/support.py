@@ -43,7 +43,11 @@ def _report_unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[F
     least = max(bounds.support_margin * run.bodies.size, bounds.support_margin_min)
     root = robot.link[run.bodies.bodies[0].name]
     names = quote_names(_list_supporting_links(run))
-    if weight > 0 and carried < bounds.carried_weight * weight:
+    inner = _list_internal_overlaps(run)
+    if weight <= 0:
+        what = "no gravity acts on the robot, so the ground does not carry it"
+        why = "the description turns gravity off, or compensates for it, at each link with mass"
+    elif carried < bounds.carried_weight * weight:
         what = f"the ground carries only {carried:.3g} N of the robot's weight of {weight:.3g} N"
         what += " across the slope" * (run.settings.slope > 0)
     elif state.margin is not None and state.margin < -least:
@@ -51,11 +55,10 @@ def _report_unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[F
         what += f" of {names}"
     else:
         return
-    inner = _list_internal_overlaps(run)
-    if inner:
+    if weight > 0 and inner:
         pairs = ", ".join(f"'{c.one}' and '{c.other}' ({1000 * c.depth:.0f} mm)" for c in inner[:3])
         why = f"contacts inside the robot carry it: {pairs} overlap"
-    else:
+    elif weight > 0:
         why = "this state is not physical; compare with another --engine or a smaller --timestep"
     yield Fault("unsupported", Severity.ERROR, what, root.place, "link", root.name, why)
 
