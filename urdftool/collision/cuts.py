@@ -122,6 +122,8 @@ class PlaneCutter:
         several = self.target.surface.meshes > 1  # gaps between them stay closed
         parts = self._search([self.whole], most, goal, dense=False)
         if _estimate(parts) > goal and self.effort.retries:
+            if several and (best := self._finish(parts, max_error)).has_closed_gap(goal):
+                return best  # which no plane opens
             again = self._search([self.whole], most, goal, dense=True)
             parts = min(parts, again, key=_estimate)
         best = self._finish(parts, max_error)

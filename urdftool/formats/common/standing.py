@@ -295,7 +295,7 @@ def _keep_own(chains: Mapping[str, list[str]]) -> dict[str, list[str]]:
     return dict(chains)
 
 
-def _keep_first(chains: Mapping[str, list[str]]) -> dict[str, list[str]]:
+def _keep_first(chains: dict[str, list[str]]) -> dict[str, list[str]]:
     """Return the first of the chains that begin with the same body."""
     found = {chain[0]: body for body, chain in reversed(chains.items())}
     return {body: chain for body, chain in chains.items() if found[chain[0]] == body}

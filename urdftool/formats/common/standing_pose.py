@@ -120,7 +120,7 @@ def choose_standing_positions(
         ModelError: The user asks for it, and the robot has no legs that can be bent.
     """
     legs = find_legs(tree, boxes, home.values)
-    ends = find_leg_chains(tree, boxes, home.values)
+    ends = list(find_leg_chains(tree, boxes, home.values))
     joints = {joint.name for leg in legs for joint in leg.joints}
     is_whole = len(legs) > 1 and len(legs) == len(ends)
     if not home.stands and not (
