@@ -233,6 +233,28 @@ def test_check_says_how_good_collisions_are(urdftool, write, box):
     assert (link["within"], link["concave_meshes"], link["hull_error"]) == (False, 0, None)
 
 
+def test_check_has_the_limits_of_the_configuration(urdftool, write, box):
+    far = (
+        '<collision><origin xyz="0 0 1"/><geometry><box size="0.4 0.2 0.1"/></geometry>'
+        "</collision>\n  </link>"
+    )  # 13 % too long
+    links = [(name, "meshes/box.stl", "") for name in "ab"]
+    path = write("r.urdf", robot(*links).replace("</link>", far))
+
+    def check(table, *words):
+        write("urdftool.toml", table)
+        done = urdftool("collision", path, "--check", *words, "--format", "json")
+        found = json.loads(done.out)["results"][0]["links"] if done.out else []
+        return done.code, [(link["link"], link["max_error"], link["within"]) for link in found]
+
+    assert check("[collision]\nmax-error = 0.2") == (0, [("a", 0.2, True), ("b", 0.2, True)])
+    assert check("[collision]\nmax-error = 0.2", "--max-error", "0.1")[0] == 1
+    own = "[collision.links.a]\nmax-error = 0.2\n"
+    assert check(own) == (1, [("a", 0.2, True), ("b", 0.05, False)])
+    assert check(own + "[collision.links.b]\nskip = true") == (0, [("a", 0.2, True)])
+    assert check("[collision]\nmax-eror = 0.2") == (2, [])
+
+
 @pytest.mark.slow
 def test_check_says_what_engines_touch_of_a_concave_mesh(urdftool, write, bracket, tmp_path):
     links = [(name, "meshes/bracket.stl", "") for name in "abc"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +40,7 @@ class Checked:
         measures: As :meth:`Measures.as_dict`, with each mesh as written; None if there is nothing
             to compare.
         trouble: Reason why it was not measured, or empty.
+        max_error: Largest acceptable error, relative to the size.
         lacks_collision: Whether that is the reason: the link has no collision geometry.
         concave: Number of collision meshes that are not convex.
         hull_error: Error if engines use the hulls of those, as PyBullet and MuJoCo do for moving
@@ -52,6 +53,17 @@ class Checked:
     concave: int = 0
     hull_error: float | None = None
     lacks_collision: bool = False
+    max_error: float = 0.05
+
+    @property
+    def is_good(self) -> bool:
+        """Tell whether the link has collision geometry within the error of its visual."""
+        return self.measures is not None and self.measures["error"] <= self.max_error
+
+    @property
+    def is_above(self) -> bool:
+        """Tell whether the link has collision geometry with a larger error."""
+        return self.measures is not None and not self.is_good
 
     @property
     def is_unmeasured(self) -> bool:
@@ -98,12 +110,12 @@ def look_at(robot: Robot, link: Link, max_error: float = 0.05) -> Look | None:
         visuals = tuple(part for shape in link.visuals for part in _list_parts(robot, shape))
         collisions = tuple(part for shape in link.collisions for part in _list_parts(robot, shape))
     except UrdftoolError as error:
-        return Look(link.name, (), (), str(error))
+        return Look(link.name, (), (), str(error), max_error)
     if not visuals:
         return None
     if not collisions:
         shapeless = "its collisions have no shape" if link.collisions else "it has no collision"
-        return Look(link.name, visuals, (), shapeless)
+        return Look(link.name, visuals, (), shapeless, max_error)
     return Look(link.name, visuals, collisions, max_error=max_error)
 
 
@@ -137,6 +149,10 @@ def _make_failure(look: Look, _: Loss) -> Checked:
 
 def check_link(look: Look) -> Checked:
     """Measure the collision geometry of a link; errors become ``Checked.trouble``."""
+    return replace(_measure_link(look), max_error=look.max_error)
+
+
+def _measure_link(look: Look) -> Checked:
     if look.trouble:
         return Checked(look.link, None, look.trouble, lacks_collision=look.lacks_collision)
     try:

@@ -98,15 +98,9 @@ def plan(robot: Robot, options: CollisionOptions) -> tuple[list[LinkPlan], list[
     Raises:
         ConfigError: A named link or a setting does not exist.
     """
-    check_names(robot, (*options.only, *options.skip))
     plans: list[LinkPlan] = []
     problems: list[UrdftoolError] = []
-    for index, link in enumerate(robot.links):
-        if (options.only and link.name not in options.only) or link.name in options.skip:
-            continue
-        settings, skipped = _get_settings(link.name, options)
-        if skipped:
-            continue
+    for index, link, settings in list_selected(robot, options):
         found = _link_plan(index, link, options)
         if found is None:
             continue
@@ -121,6 +115,20 @@ def plan(robot: Robot, options: CollisionOptions) -> tuple[list[LinkPlan], list[
             uses = _unite_meshes(uses)
         plans.append(LinkPlan(index, link, source, list(_divide_count(robot, uses)), replaced))
     return plans, problems
+
+
+def list_selected(robot: Robot, options: CollisionOptions) -> Iterator[tuple[int, Link, Settings]]:
+    """Yield the links that are not left out, each with its index and its settings.
+
+    Raises:
+        ConfigError: A named link or a setting does not exist.
+    """
+    _check_names(robot, (*options.only, *options.skip))
+    for index, link in enumerate(robot.links):
+        settings, skipped = get_settings(link.name, options)
+        is_named = not options.only or link.name in options.only
+        if is_named and link.name not in options.skip and not skipped:
+            yield index, link, settings
 
 
 def _unite_meshes(uses: list[Use]) -> list[Use]:
@@ -224,7 +232,7 @@ def _make_task(robot: Robot, shape: Shape, settings: Settings) -> Task | None:
     return Task(Path(path), mesh.scale, settings, robot.source.gltf_up)
 
 
-def check_names(robot: Robot, names: Iterable[str]) -> None:
+def _check_names(robot: Robot, names: Iterable[str]) -> None:
     """Raise ConfigError for names that are not links of the robot."""
     for name in names:
         if name not in robot.link:
@@ -232,8 +240,12 @@ def check_names(robot: Robot, names: Iterable[str]) -> None:
             raise ConfigError(f"the robot has no link '{name}'{hint}")
 
 
-def _get_settings(name: str, options: CollisionOptions) -> tuple[Settings, bool]:
-    """Return the settings of a link, and whether it is skipped."""
+def get_settings(name: str, options: CollisionOptions) -> tuple[Settings, bool]:
+    """Return the settings of a link, and whether it is skipped.
+
+    Raises:
+        ConfigError: A setting of the configuration does not exist, or has no such value.
+    """
     table: dict[str, Any] = {}
     for key, value in options.table.items():
         if key != "links":

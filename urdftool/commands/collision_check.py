@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..collision.check import Checked, check_all, look_at
-from ..collision.links import check_names
+from ..collision.links import get_settings, list_selected
 from ..console import Console
 from ..report import collision_check as report
 from ..report.counted import format_count
@@ -27,11 +27,8 @@ def check(
     """Measure the collision geometry of robots, print the result, and return the exit code."""
     looks, owners = [], []
     for number, (robot, options) in enumerate(robots):
-        check_names(robot, (*options.only, *options.skip))
-        for link in robot.links:
-            if (options.only and link.name not in options.only) or link.name in options.skip:
-                continue
-            look = look_at(robot, link, options.settings.max_error)
+        for _, link, settings in list_selected(robot, options):
+            look = look_at(robot, link, settings.max_error)
             if look is not None:
                 looks.append(look)
                 owners.append(number)
@@ -41,10 +38,10 @@ def check(
     for number, (robot, options) in enumerate(robots):
         own = [item for item, owner in zip(checks, owners, strict=True) if owner == number]
         assert robot.source is not None
-        path, limit = robot.source.path, options.settings.max_error
-        results.append(report.as_dict(path, own, limit))
+        path = robot.source.path
+        results.append(report.as_dict(path, own, get_settings("", options)[0].max_error))
         if values["style"] == "table":
-            click.echo(report.format_table(own, limit), nl=False)
+            click.echo(report.format_table(own), nl=False)
         code = max(code, _report(console, robot, options, path, own))
     if values["style"] == "json":
         click.echo(json.dumps({"version": 1, "results": results}, indent=2))
@@ -54,7 +51,8 @@ def check(
 def _explain_nothing(robot: Robot, options: CollisionOptions) -> str:
     """Explain why nothing was checked."""
     shapes = sum(bool(link.collisions) for link in robot.links)
-    which = "none of the selected links" if options.only or options.skip else "no link"
+    is_whole = len(list(list_selected(robot, options))) == len(robot.links)
+    which = "no link" if is_whole else "none of the selected links"
     have = (
         f" ({format_count(shapes, 'link')} of the robot ha{'s' if shapes == 1 else 've'} "
         "collisions)"
@@ -65,8 +63,7 @@ def _explain_nothing(robot: Robot, options: CollisionOptions) -> str:
 def _report(
     console: Console, robot: Robot, options: CollisionOptions, path: str, found: Sequence[Checked]
 ) -> int:
-    limit = options.settings.max_error
-    for line in report.format_remarks(found, limit):
+    for line in report.format_remarks(found):
         console.print_message(line)
     if not found:
         console.print_message(
@@ -74,7 +71,7 @@ def _report(
         )
         return 2
     report_gltf_axes(console, robot)
-    console.print_note(f"{path}: {report.summarize(found, limit)}")
+    console.print_note(f"{path}: {report.summarize(found)}")
     if any(item.is_unmeasured for item in found):
         return 2
-    return int(not all(report.is_good(item, limit) for item in found))
+    return int(not all(item.is_good for item in found))

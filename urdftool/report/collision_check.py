@@ -11,20 +11,16 @@ from .counted import format_count
 from .tables import render_table
 
 
-def is_good(item: Checked, limit: float) -> bool:
-    """Tell whether a link has collision geometry within the error limit of its visual."""
-    return item.measures is not None and item.measures["error"] <= limit
-
-
 def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]:
-    """Return the JSON form for one robot."""
+    """Return the JSON form for one robot; ``limit`` is that of links without one of their own."""
     return {
         "input": path,
         "max_error": limit,
         "links": [
             {
                 "link": item.link,
-                "within": None if item.is_unmeasured else is_good(item, limit),
+                "max_error": item.max_error,
+                "within": None if item.is_unmeasured else item.is_good,
                 "measures": item.measures,
                 "concave_meshes": item.concave,
                 "hull_error": item.hull_error,
@@ -35,7 +31,7 @@ def as_dict(path: str, found: Sequence[Checked], limit: float) -> dict[str, Any]
     }
 
 
-def format_table(found: Sequence[Checked], limit: float) -> str:
+def format_table(found: Sequence[Checked]) -> str:
     """Format the results, one line for each link."""
     if not found:
         return ""
@@ -43,7 +39,7 @@ def format_table(found: Sequence[Checked], limit: float) -> str:
         ("", "", "pieces", "triangles", "error", "reach", "excess", "volume", "outside")
     ]
     for item in found:
-        verdict = "-" if item.is_unmeasured else "ok" if is_good(item, limit) else "BAD"
+        verdict = "-" if item.is_unmeasured else "ok" if item.is_good else "BAD"
         m = item.measures
         if m is None:
             lines.append((item.link, verdict, *["-"] * 7))
@@ -64,15 +60,15 @@ def format_table(found: Sequence[Checked], limit: float) -> str:
     return render_table(lines, left=(0, 1))
 
 
-def format_remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
+def format_remarks(found: Sequence[Checked]) -> Iterator[str]:
     """Yield a line for each problem of a link."""
     for item in found:
         if item.trouble:
             yield f"link '{item.link}': {item.trouble}"
-        elif item.measures is not None and item.measures["error"] > limit:
+        elif item.measures is not None and item.is_above:
             yield (
                 f"link '{item.link}': error {item.measures['error']:.2%} of its size, "
-                f"not within {limit:.2%}"
+                f"not within {item.max_error:.2%}"
             )
         if item.hull_error is not None:
             yield (
@@ -81,14 +77,14 @@ def format_remarks(found: Sequence[Checked], limit: float) -> Iterator[str]:
             )
 
 
-def summarize(found: Sequence[Checked], limit: float) -> str:
+def summarize(found: Sequence[Checked]) -> str:
     """Summarize how many links were measured, and with which result."""
-    above = sum(item.measures is not None and not is_good(item, limit) for item in found)
+    above = sum(item.is_above for item in found)
+    limits = sorted({item.max_error for item in found})
+    allowed = f"{limits[0]:.2%}" if len(limits) == 1 else "that of its link"
     lacking = sum(item.lacks_collision for item in found)
     unmeasured = sum(item.is_unmeasured for item in found)
-    text = (
-        f"{format_count(len(found), 'link')} with visuals, {above} with an error above {limit:.2%}"
-    )
+    text = f"{format_count(len(found), 'link')} with visuals, {above} with an error above {allowed}"
     if lacking:
         text += f", {lacking} without collision geometry"
     return text + (f", {unmeasured} not measured" if unmeasured else "")

@@ -5,7 +5,9 @@ import pytest
 from tests.formats.mjcf.robots import export, find, tree
 from tests.formats.test_standing_pose import quadruped
 from tests.formats.test_upright import write_robot
+from urdftool.compare.check import is_faithful
 from urdftool.formats.mjcf.options import Options
+from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
 
@@ -29,6 +31,19 @@ def test_additions_are_written(write):
     assert condims
     assert {geom.get("priority") for geom in condims} == {"1"}
     assert {actuator.tag for actuator in model.find("actuator")} == {"position"}
+
+
+@pytest.mark.parametrize("adds", [True, False])
+def test_additions_are_not_called_equal_to_the_source(write, adds):
+    found = load(write("r.urdf", quadruped()))
+    options = Options(base="free", purpose="rl" if adds else "").complete()
+    checks = verify_copy(found, options, write_mjcf(found, options))
+    rows = {check.name: check for check in checks if check.tolerance < 1e-8}
+    names = ("joint physics", "surface", "sensors")
+    assert {rows[name].verdict == "announced" for name in names} == {adds}
+    text = "armature added or changed at 8 of 8 joints (largest: 0.012, of "
+    assert [one.startswith(text) for one in rows["joint physics"].announced[:1]] == [True] * adds
+    assert is_faithful(checks)
 
 
 @pytest.mark.parametrize(("radius", "feet"), [(0.02, 4), (0.3, 0)])

@@ -53,7 +53,7 @@ def decide_base(
 
 
 def _explain_fixed_base(tree: RigidTree, boxes: ShapeBoxes, home: Mapping[str, float]) -> str:
-    """Say why nothing shows that the root is free."""
+    """Explain why nothing shows that the root is free."""
     if not any(link.collisions for link in tree.robot.links):
         return "no link has a collision, so a free one would fall through the ground"
     if measure_ground(tree, boxes, home) is None:

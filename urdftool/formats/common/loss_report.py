@@ -15,6 +15,7 @@ _MOST_LINES = 100
 _RANKED = {
     "lossy-nonconvex": "hull_ratio",
     "lossy-inertia": "excess",
+    "lossy-inertia-raised": "change",
     "inertia-triangle-inequality": "excess",
 }
 """Codes of findings that most links of a robot can have, and the value that ranks them."""

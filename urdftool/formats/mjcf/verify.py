@@ -29,6 +29,7 @@ from ...model.world import add_world
 from ..common.losses import DeclaredLosses, name_links
 from ..reading import Reading
 from ..written import Written
+from .additions import announce_additions
 from .compiled import Compiled, compile_all, copy_export
 from .copied import has_copied_home, list_copied, list_uncopied
 from .declared_losses import EFFORT, EXCUSES, INERTIA, TORN
@@ -125,7 +126,8 @@ def verify(
     expected = _make_expected(robot, again.planned)
     reading = read(model, limits=Limits(LIMITS.time))  # this process has compiled it already
     expected.native = select_native(robot, options)
-    checks = [*_compare_read(expected, written, reading)]
+    checks = _compare_read(expected, written, reading)
+    announce_additions(checks, robot, again.planned)
     declared = DeclaredLosses.from_findings(written.losses)
     checks += _compare_compiled(robot, expected, written, model, options)
     checks.append(

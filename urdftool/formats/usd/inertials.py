@@ -169,8 +169,8 @@ def _accept(link: Link, body: SpatialInertia, written: Written) -> BodyInertia:
     tensor = body.tensor
     if not np.array_equal(accepted, moments):
         tensor = from_matrix((axes * accepted) @ axes.T)
-    change = float(np.abs(accepted - moments).max())
-    if change > _REPORTED * float(accepted.max()):
+    change = float(np.abs(accepted - moments).max()) / (float(accepted.max()) or 1.0)
+    if change > _REPORTED:
         written.report_loss(
             "inertia-raised",
             f"inertia of link '{link.name}' has a principal moment that Newton raises; "
@@ -178,6 +178,7 @@ def _accept(link: Link, body: SpatialInertia, written: Written) -> BodyInertia:
             link.place,
             kind="link",
             name=link.name,
+            data={"change": change},
         )
     return BodyInertia(SpatialInertia(body.mass, body.com, tensor), accepted, axes)
 

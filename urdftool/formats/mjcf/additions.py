@@ -1,0 +1,71 @@
+"""Values of joints, sensors and contacts that an export adds to its source.
+
+The proof compares the file with the source and the choices of the export. A row whose values the
+export added is not called equal to the source.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ...compare.check import Check
+from ...model.elements import Robot
+
+DYNAMICS = ("armature", "damping", "friction")
+"""Properties of a joint that options of the export set."""
+
+
+def announce_additions(checks: Sequence[Check], source: Robot, planned: Robot) -> None:
+    """Announce in each row what the export adds to the source.
+
+    Args:
+        checks: Rows of the comparison, in which nothing differs where the file is as planned.
+        source: The robot as its description defines it.
+        planned: The robot that the export writes.
+    """
+    rows = {
+        "joint physics": list_added_dynamics(source, planned),
+        "sensors": _list_added_sensors(source, planned),
+        "surface": _list_added_contact(source, planned),
+    }
+    for check in checks:
+        check.announced += rows.get(check.name, ())
+
+
+def list_added_dynamics(source: Robot, planned: Robot) -> Iterator[str]:
+    """Yield a text for each property of joints that an export sets, with its largest value."""
+    for name in DYNAMICS:
+        values = {
+            joint.name: value
+            for joint in planned.joints
+            if (before := source.joint.get(joint.name)) is not None
+            and (value := joint.get_resistance(name)) != before.get_resistance(name)
+        }
+        if values:
+            largest = max(values, key=lambda joint: abs(values[joint]))
+            yield (
+                f"{name} added or changed at {len(values)} of {len(planned.joints)} joints "
+                f"(largest: {values[largest]:g}, of '{largest}')"
+            )
+
+
+def _list_added_sensors(source: Robot, planned: Robot) -> Iterator[str]:
+    known = {sensor.name for sensor in source.mounted_sensors}
+    added = [sensor.name for sensor in planned.mounted_sensors if sensor.name not in known]
+    if added:
+        yield f"added: {len(added)} ('{added[0]}' and so on)"
+
+
+def _list_added_contact(source: Robot, planned: Robot) -> Iterator[str]:
+    changed = [
+        link.name
+        for link in planned.links
+        if link.name in source.link
+        and any(
+            new.surface.keys() - old.surface.keys()
+            for new, old in zip(link.collisions, source.link[link.name].collisions, strict=False)
+        )
+    ]
+    if changed:
+        names = ", ".join(f"'{name}'" for name in changed)
+        yield f"contact parameters added to {names}"
