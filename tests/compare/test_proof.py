@@ -10,6 +10,7 @@ from urdftool.compare.proof import Claims, Excuse, prove
 from urdftool.compare.rows import ROWS, narrow_tolerances
 from urdftool.diagnostic import Severity
 from urdftool.finding import Finding
+from urdftool.model.elements import Calibration
 from urdftool.model.mechanism import Base
 from urdftool.model.provenance import NOWHERE
 
@@ -42,6 +43,14 @@ def test_equal_robots_are_faithful():
     checks = prove(arm(), arm(), Claims(), rows=narrow_tolerances(ROWS, 1e-12))
     assert is_faithful(checks)
     assert {check.tolerance for check in checks} <= {0.0, 1e-12}
+
+
+def test_a_row_that_a_format_lacks_a_part_of_is_equal_in_part():
+    one, two = arm(), arm()
+    one.joint["j"].calibration = Calibration(None, rising=0.1)
+    two.format = "sdf"
+    row = next(check for check in prove(one, two, Claims()) if check.name == "limits")
+    assert (row.verdict, row.shown, row.as_dict()["partial"]) == ("equal", "equal, in part", True)
 
 
 @pytest.mark.parametrize(

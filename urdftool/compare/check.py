@@ -22,6 +22,7 @@ class Check:
         announced: Descriptions of differences that the export reported.
         skipped: Why the property was not compared; empty if it was.
         is_empty: Whether no robot has a part with the property, as far as it was compared.
+        is_partial: Whether a format of the two lacks a part of the property.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Check:
     announced: list[str] = field(default_factory=list)
     skipped: str = ""
     is_empty: bool = False
+    is_partial: bool = False
 
     @property
     def verdict(self) -> str:
@@ -47,6 +49,13 @@ class Check:
         if self.announced:
             return "announced"
         return "none" if self.is_empty else "equal"
+
+    @property
+    def shown(self) -> str:
+        """Return the result for a table, which says so where only a part could be compared."""
+        if self.is_partial and self.verdict in WITHOUT_DIFFERENCE:
+            return "equal, in part" if self.verdict == "equal" else "not compared"
+        return self.verdict
 
     def compare(self, difference: float, item: str, *, known: bool = False) -> None:
         """Record a difference.
@@ -74,6 +83,7 @@ class Check:
             "worst": worst,
             "tolerance": self.tolerance,
             "verdict": self.verdict,
+            "partial": self.is_partial,
             "differing": self.differing,
             "announced": self.announced,
             "skipped": self.skipped,

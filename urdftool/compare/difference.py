@@ -186,6 +186,7 @@ class Comparison:
             self.worst.get(row.name, 0.0),
             skipped=self.explain_skipped(row.name),
             is_empty=row.name not in self.worst,
+            is_partial=row.name in self.partial,
         )
 
     def merge(self, other: Comparison) -> None:

@@ -11,17 +11,13 @@ import numpy as np
 
 from ..mechanics.reference import Array
 from ..model.elements import BALL_TYPES, Joint, Limit, Mimic, Robot
-from ..model.kinematics import follow_mimic_chain, get_limits
+from ..model.kinematics import UNLIMITED, follow_mimic_chain, get_limits
 from ..model.part import Part
 from ..model.settings import RESISTANCE, split_unit
 from .bodies import HINGES, compute_axis
 from .difference import Comparison, Difference
 from .frames import format_vector
 from .pair import Pair, locate
-
-UNLIMITED = 1e9
-"""Limit beyond which a joint counts as unlimited."""
-
 
 _POSITION, _FORCE, _RATE = ("rad", "m"), ("N·m", "N"), ("rad/s", "m/s")
 _NONE = ("", "")

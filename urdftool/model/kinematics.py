@@ -14,6 +14,9 @@ from .pose import IDENTITY, Pose, make_pose
 MOVABLE = ("revolute", "continuous", "prismatic")
 """Types of joints with one position."""
 
+UNLIMITED = 1e9
+"""Number that stands for no limit where a format requires one; chosen, no source."""
+
 NOWHERE: Mapping[str, float] = {}
 
 _SAME = 1e-6  # [rad, m], or a ratio: rounding of a mimic joint's position; chosen, no source

@@ -60,7 +60,7 @@ def format_check_table(
         is_exact = check.tolerance == 0 and check.worst == 0
         worst = "-" if is_exact or check.skipped or check.is_empty else f"{check.worst:.1e}"
         bound = "exact" if check.tolerance == 0 else f"{check.tolerance:.0e}"
-        rows.append((check.name, check.what, worst, bound, check.verdict))
+        rows.append((check.name, check.what, worst, bound, check.shown))
         lines += [f"{check.name}: differs: {item}" for item in check.differing]
         if check.announced:
             lines.append(f"{check.name}: announced: {_format_some(check.announced)}")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..compare.check import WITHOUT_DIFFERENCE
 from ..compare.difference import Comparison, name_part
 from ..compare.rows import GLOBAL_ROWS, NOT_COMPARED
 from ..compare.several import Agreement, Disagreement
@@ -114,10 +113,8 @@ def _format_cell(comparison: Comparison, row: str) -> str:
     check = next(check for check in comparison.make_checks() if check.name == row)
     if check.verdict == "announced":
         return "equal, by convention"
-    if row in comparison.partial and check.verdict in WITHOUT_DIFFERENCE:
-        return "equal, in part" if check.verdict == "equal" else "not compared"
     count = f" ({len(check.differing)})" if check.differing else ""
-    return f"{check.verdict}{count}"
+    return f"{check.shown}{count}"
 
 
 def _group(entries: Sequence[Disagreement]) -> list[list[Disagreement]]:

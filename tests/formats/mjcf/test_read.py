@@ -297,3 +297,10 @@ def test_a_second_end_tag_is_ignored_as_by_mujoco(tmp_path):
     equal(file)
     (loss,) = read(file).losses
     assert (loss.code, loss.location.line) == ("unread-end-tag", 5)
+
+
+def test_a_range_may_have_one_end(tmp_path):
+    body = '<body name="b"><joint name="j" type="slide" range="-1e9 2" limited="true"/>'
+    robot = read(model(tmp_path, body + '<geom size="1"/></body>')).robot
+    limit = robot.joint["j"].limit
+    assert (limit.lower, limit.upper) == (-math.inf, 2)

@@ -44,12 +44,18 @@ def test_drives_are_per_degree(read):
     joint = reading.robot.joint["j"]
     (actuator,) = reading.robot.joint_actuators
     assert joint.limit.lower == pytest.approx(-math.pi / 2)
-    assert (joint.limit.upper, joint.limit.effort) == (None, 5)
+    assert (joint.limit.upper, joint.limit.effort) == (math.inf, 5)
     assert joint.limit.velocity == pytest.approx(math.pi)
     assert joint.dynamics.damping == pytest.approx(math.degrees(0.2))
     assert joint.dynamics.friction == pytest.approx(0.3)
     assert (actuator.mode, actuator.force_range) == ("position", (-5, 5))
     assert actuator.bias == pytest.approx((0, -math.degrees(2), -math.degrees(0.1)))
+
+
+def test_a_slide_without_bounds_is_not_locked_by_its_effort(read):
+    text = turning("j", "a", "b", "        float drive:linear:physics:maxForce = 5")
+    limit = read(stage(*TWO, text.replace("Revolute", "Prismatic"))).robot.joint["j"].limit
+    assert (limit.lower, limit.upper, limit.effort) == (-math.inf, math.inf, 5)
 
 
 def test_attributes_of_mujoco_are_per_radian(read):

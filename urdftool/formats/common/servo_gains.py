@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ...model.kinematics import UNLIMITED
 from ..written import Written
 from .joint_loads import JointLoad
 
@@ -57,9 +58,6 @@ PLAIN_GAIN = {
     "velocity": {"hinge": 10.0, "slide": 100.0},
 }
 """Gains for joints without an effort limit that move nothing with mass."""
-
-UNLIMITED = 1e9
-"""Effort and velocity that stand for no limit, as ``export urdf`` writes them."""
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Joint, Limit, Vector
+from ...model.kinematics import UNLIMITED
 from ...model.pose import compute_cross, compute_norm
 from ...model.settings import JOINTS_OF_MUJOCO, RESISTANCE
 from ..common.missing_bounds import explain_missing_bounds, explain_negative_effort
@@ -81,8 +82,9 @@ def _build_single(
         element.set("type", "slide")
     element.set("axis", format_numbers_text(get_axis(joint)))
     limits = get_bounds(joint)
-    if limits is not None and limits[0] < limits[1] and all(map(math.isfinite, limits)):
-        element.set("range", format_numbers_text(limits))
+    if limits is not None and limits[0] < limits[1] and any(map(math.isfinite, limits)):
+        ends = [max(-UNLIMITED, min(limit, UNLIMITED)) for limit in limits]
+        element.set("range", format_numbers_text(ends))
     effort = get_effort(joint) if structure.robot.format != "mjcf" else None  # which is copied
     forces = [
         abs(one.gear) * max(map(abs, one.force_range))

@@ -23,7 +23,7 @@ from ...model.elements import (
     Robot,
     Vector,
 )
-from ...model.kinematics import compute_motion
+from ...model.kinematics import UNLIMITED, compute_motion
 from ...model.mechanism import Base, Frame
 from ...model.part import ZERO
 from ...model.pose import IDENTITY, Pose, get_origin_at
@@ -42,9 +42,6 @@ from .read_context import (
 
 VELOCITY = "_velocity_limit"
 """End of the name of a number in ``<custom>``: the velocity limit of a joint, which MJCF lacks."""
-
-UNLIMITED = 1e9
-"""Range beyond which a joint counts as unlimited."""
 
 
 def add_tree(context: Context, robot: Robot) -> None:
@@ -159,8 +156,10 @@ def _read_joints(
 def _read_joint(context: Context, row: Row, number: int, parent: str, child: str) -> Joint:
     """Return a joint without its origin."""
     written = _place(context, row)
-    lower, upper = row["range"]
-    limited = bool(row["limited"]) and max(-lower, upper) < UNLIMITED
+    lower, upper = (
+        end if abs(end) < UNLIMITED else math.copysign(math.inf, end) for end in row["range"]
+    )
+    limited = bool(row["limited"]) and (lower, upper) != (-math.inf, math.inf)
     kind = {"hinge": "revolute", "slide": "prismatic", "ball": "ball", "free": "floating"}[
         row["type"]
     ]

@@ -10,6 +10,7 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.drawn import list_drawn_once
 from ...model.elements import BALL_TYPES, Collision, Joint, Link, Origin, Robot, Visual
+from ...model.kinematics import UNLIMITED
 from ...model.mechanism import Frame
 from ...model.settings import RESISTANCE_OF_URDF
 from ..common.directory import mark
@@ -35,9 +36,6 @@ from .settings import add_settings
 from .shapes import add_shape
 from .translation import Translation, add, add_origin, format_numbers
 from .trees import take_tree
-
-UNLIMITED = 1e9
-"""Number that stands for no limit where URDF requires one."""
 
 
 def write(robot: Robot, options: Options | None = None) -> Written:

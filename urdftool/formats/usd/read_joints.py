@@ -158,15 +158,14 @@ def add_motion(context: Context, prim: Usd.Prim, joint: Joint, freedom: str) -> 
         f"physxJointAxis:{units.name}:maxJointVelocity",
         "physxJoint:maxJointVelocity",
     )
-    limit = Limit(
-        context.get_written(prim, "physics:lowerLimit"),
-        _convert_bound(lower, units.position),
-        _convert_bound(upper, units.position),
-        _convert_bound(effort, units.force),
-        _convert_bound(velocity, units.position),
-    )
-    if any(value is not None for value in (limit.lower, limit.upper, limit.effort, limit.velocity)):
-        joint.limit = limit
+    bounds = _convert_bound(lower, units.position), _convert_bound(upper, units.position)
+    largest = _convert_bound(effort, units.force), _convert_bound(velocity, units.position)
+    if any(value is not None for value in (*bounds, *largest)):
+        if joint.type != "continuous":
+            low, high = bounds
+            bounds = -math.inf if low is None else low, math.inf if high is None else high
+        written = context.get_written(prim, "physics:lowerLimit")
+        joint.limit = Limit(written, *bounds, *largest)
     joint.dynamics = _read_dynamics(context, prim, units)
     joint.mimic = _read_mimic(context, prim, units)
 
