@@ -220,3 +220,19 @@ def test_sensors_of_sdf_are_copied(urdftool, write, tmp_path):
     assert block.get_value("preserveFixedJoint") == "true"
     assert {f["rule"] for f in report["findings"]} == {"lossy-sensor", "lossy-optical-frame"}
     assert not (tmp_path / "m.srdf").exists()
+
+
+OTHER = (
+    '<robot name="r" xmlns:drake="http://drake.mit.edu"><link name="a"/>'
+    '<mujoco><compiler meshdir="m"/></mujoco><drake:collision_filter_group name="g"/></robot>'
+)
+
+
+@pytest.mark.parametrize(
+    ("target", "tags"), [("urdf", ["mujoco"]), ("sdf", ["mujoco", "drake:collision_filter_group"])]
+)
+def test_elements_of_other_programs_are_copied_or_named(urdftool, write, tmp_path, target, tags):
+    path = write("other.urdf", OTHER)
+    result = urdftool("export", target, path, "-o", str(tmp_path / "out"), "--force")
+    lines = [line for line in result.err.splitlines() if "[lossy-other-element]" in line]
+    assert [line.partition("<")[2].partition(">")[0] for line in lines] == tags

@@ -119,6 +119,8 @@ def compare_joint(pair: Pair, match: JointMatch, comparison: Comparison) -> floa
     if one.has_direction:
         sign = _compare_axis(match, comparison)
         _compare_limits(pair, match, sign, comparison)
+    elif one.type in BALL_TYPES:
+        _compare_cone(match, comparison)
     _compare_dynamics(match, comparison)
     return sign
 
@@ -152,6 +154,15 @@ def _compare_axis(match: JointMatch, comparison: Comparison) -> float:
     note = f"{math.degrees(angle):.4g}° apart"
     _add(comparison, match, "axes", "axis", values, "", angle, note, parts)
     return sign
+
+
+def _compare_cone(match: JointMatch, comparison: Comparison) -> None:
+    """Compare the largest angles of two ball joints from their zero."""
+    parts = match.one.limit, match.two.limit
+    x, y = (math.inf if one is None or one.upper is None else one.upper for one in parts)
+    if math.isfinite(min(x, y)):
+        values = _show(x), _show(y)
+        _add(comparison, match, "limits", "upper limit", values, "rad", measure(x, y), "", parts)
 
 
 def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comparison) -> None:

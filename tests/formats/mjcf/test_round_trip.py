@@ -4,6 +4,7 @@ import pytest
 
 from urdftool.compare.compare import compare_robots
 from urdftool.formats.mjcf.options import Options
+from urdftool.formats.mjcf.read import read
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf
 
@@ -130,3 +131,24 @@ def test_a_setting_in_several_blocks_has_one_value(write, urdftool, tmp_path, bl
     assert "stiffness" not in text
     assert (friction is None) == ("friction=" not in text)
     assert friction is None or f'friction="{friction}' in text
+
+
+BALL = (
+    '<mujoco><worldbody>{light}<body name="b"><joint name="j" type="ball" range="0 {end}"/>'
+    '<geom size="1"/></body><body name="c"><geom size="1"/></body></worldbody></mujoco>'
+)
+
+
+def test_the_limit_of_a_ball_joint_is_compared(write):
+    one, two = (read(write(f"{end}.xml", BALL.format(end=end, light=""))).robot for end in (20, 30))
+    (difference,) = compare_robots(one, two).differences
+    assert (difference.row, difference.title) == ("limits", "joint 'j': upper limit")
+
+
+def test_a_light_without_a_name_is_the_same_with_one(write):
+    path = write("m.xml", BALL.format(end=20, light='<light pos="0 0 3"/>'))
+    robot = read(path).robot
+    written = write_mjcf(robot, Options())
+    assert b'type="ball" range="0 0.349' in written.files[written.main]
+    rows = {row.name: row.verdict for row in verify_copy(robot, Options(), written)}
+    assert (rows["sensors"], rows["limits"]) == ("equal", "equal")

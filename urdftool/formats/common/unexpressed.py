@@ -7,12 +7,13 @@ from typing import NamedTuple
 
 from ...diagnostic import Severity
 from ...model.appearance import find_unknown_script
-from ...model.elements import Link, Material, Mesh, Robot, Visual
+from ...model.elements import BALL_TYPES, Link, Material, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
 from ...model.part import Part
 from ...model.read_settings import list_settings
 from ...model.settings import ALL_OF_LINKS, LUMPING_TAGS, Setting
 from ...model.world_settings import describe_setting, list_changed, list_decided
+from ...source.document import Element
 from ..written import Written
 
 
@@ -31,6 +32,9 @@ class _Kind(NamedTuple):
     parts: list[tuple[Part, str]]
     severity: Severity = Severity.WARNING
 
+
+_OF_URDF = ("link", "joint", "material", "gazebo", "transmission", "ros2_control")
+"""Elements below ``<robot>`` that the model holds, or that each writer reports itself."""
 
 _IN_BLOCKS = ("closure", "camera", "sensor", "plugin", "light")
 """Codes of parts that a URDF has in its blocks."""
@@ -51,6 +55,27 @@ def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[s
     if "setting" not in expressed:
         report_unwritten_settings(robot, written, lambda row: row.path)
     _report_kinds((kind for kind in _list_kinds(robot) if kind.code not in expressed), written)
+    report_other_elements(robot, written, expressed=expressed)
+
+
+def report_other_elements(
+    robot: Robot, written: Written, *, expressed: Container[str] = ()
+) -> None:
+    """Report what else a URDF has next to its links and joints, once for each tag.
+
+    Args:
+        robot: The source.
+        written: The export, which receives the losses.
+        expressed: Tags that the writer expresses, or reports itself.
+    """
+    found: dict[str, list[Element]] = {}
+    for element in () if robot.xml is None else robot.xml.children:
+        if element.tag not in _OF_URDF and element.tag not in expressed:
+            found.setdefault(element.tag, []).append(element)
+    for tag, elements in found.items():
+        count = f", {len(elements)} times" if len(elements) > 1 else ""
+        text, place = f"<{tag}> in <robot>{count} is dropped", elements[0].place
+        written.report_loss("other-element", text, place, kind="robot", name=robot.name)
 
 
 def report_world_settings(robot: Robot, written: Written) -> None:
@@ -157,6 +182,8 @@ def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     yield _Kind("plugin", "plugin", [*plugins], info)
     yield from _list_world_kinds(robot)
     yield _Kind("base", "free base", [(b, "") for b in (robot.base,) if b and b.is_free], info)
+    balls = [(j.limit, j.name) for j in robot.joints if j.type in BALL_TYPES and j.limit]
+    yield _Kind("ball-limit", "limit of ball joint", [*balls])
     rotors = [(j.dynamics, j.name) for j in robot.joints if j.dynamics and j.dynamics.armature]
     yield _Kind("joint-armature", "armature of joint", [*rotors])
     springs = [(j.settings["spring_stiffness"], j.name) for j in robot.joints if j.spring]

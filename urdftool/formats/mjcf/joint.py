@@ -44,6 +44,8 @@ def build_joint_elements(
         elements = _build_planar(joint, written)
     elif kind == "ball":
         elements = [etree.Element("joint", name=joint.name, type="ball")]
+        if joint.limit is not None and joint.limit.upper is not None:
+            elements[0].set("range", format_numbers_text((0.0, joint.limit.upper)))
     else:
         elements = [_build_single(structure, joint, kind, written)]
     for element in elements:

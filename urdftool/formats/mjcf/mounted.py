@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from lxml import etree
 
@@ -26,9 +27,8 @@ COVER = 1.01
 
 def put_mounted(robot: Robot, bodies: Bodies) -> None:
     """Insert the lights, sites and cameras of a plan before the child bodies of their links."""
-    names = UniqueNames()
-    for light in robot.lights:
-        _put(bodies[light.link], _build_light(light, names))
+    for light in name_lights(robot.lights):
+        _put(bodies[light.link], _build_light(light))
     there = {site.get("name") for body in bodies.values() for site in body.iterchildren("site")}
     touched = dict(list_touched(robot))
     for frame in robot.frames:
@@ -44,6 +44,12 @@ def put_mounted(robot: Robot, bodies: Bodies) -> None:
         _put(bodies[frame.link], site)
     for camera in robot.cameras:
         _put(bodies[camera.link], _build_camera(camera))
+
+
+def name_lights(lights: Iterable[Light]) -> list[Light]:
+    """Return lights with the names that they have in an MJCF."""
+    names = UniqueNames()
+    return [replace(light, name=names.take(light.name or "light")) for light in lights]
 
 
 def _put(body: etree._Element, element: etree._Element) -> None:
@@ -67,8 +73,8 @@ def _build_camera(camera: Camera) -> etree._Element:
     return element
 
 
-def _build_light(light: Light, names: UniqueNames) -> etree._Element:
-    element = etree.Element("light", name=names.take(light.name or "light"), type=light.type)
+def _build_light(light: Light) -> etree._Element:
+    element = etree.Element("light", name=light.name, type=light.type)
     if any(light.position):
         element.set("pos", format_numbers_text(light.position))
     if light.direction is not None:

@@ -44,6 +44,7 @@ from .joint import PLANAR_SUFFIXES, get_axis, get_plane
 from .joint_settings import choose_joint_settings, set_joint_values
 from .link_inertia import LinkInertia
 from .loops import plan_closures
+from .mounted import name_lights
 from .options import Options
 from .read_extras import REFERENCE
 from .sensor import plan_sensors
@@ -279,7 +280,7 @@ def _choose_world(structure: Structure) -> Settings:
 
 def convert_parts(plan: Plan) -> Robot:
     """Return the robot of a plan with the joints and lights that MuJoCo has for them."""
-    robot = replace(plan.robot, lights=[_complete_light(light) for light in plan.robot.lights])
+    robot = replace(plan.robot, lights=[*map(_complete_light, name_lights(plan.robot.lights))])
     return _move_floating(plan, _split_planar(robot))
 
 

@@ -33,7 +33,7 @@ _NOISE = re.compile(r"(?:[\s_.-]+(?:urdf|xacro|sldasm|v\d+(?:[._]\d+)*))+\s*$", 
 
 EXPRESSED = (
     *("base", "joint-spring", "joint-armature", "setting", "joint-actuator", "exclusion"),
-    *("camera", "sensor", "closure", "light", "frame"),
+    *("camera", "sensor", "closure", "light", "frame", "ball-limit", "mujoco"),
 )
 """Codes of parts of other formats that an export writes, or reports itself."""
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...compare.check import Check
+from ...compare.difference import EXISTENCE
 from ...compare.proof import Claims, Excuse, prove
 from ...compare.rows import EQUIPMENT_ROWS, ROWS
 from ...model.elements import Robot
@@ -28,6 +29,9 @@ _EXCUSES = (
     Excuse(("sensors",), frozenset(("lossy-sensor",))),
     Excuse(("sensors",), frozenset(("lossy-optical-frame",)), properties=("frame",)),
     Excuse(("actuators",), frozenset(("lossy-actuator",))),
+    Excuse(
+        ("simulator data",), frozenset(("lossy-other-element",)), "robot", properties=(EXISTENCE,)
+    ),
 )
 """Rows whose differences a loss explains."""
 

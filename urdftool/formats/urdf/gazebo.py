@@ -19,7 +19,8 @@ from ..common.numbers import format_pose_text, number_text
 from .control import is_joint_state
 from .translation import Translation, add, add_origin, get_rpy
 
-_COPIED = ("gazebo", "transmission", "ros2_control")
+NOT_COPIED = ("link", "joint", "material", "mujoco")
+"""Elements that are written anew; <mujoco> names folders of meshes of its source."""
 
 _IMU = ("gyro", "accelerometer")
 _FORCE = ("force", "torque")
@@ -31,10 +32,10 @@ _OPTICAL = Pose(((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0)))
 
 
 def copy_extensions(t: Translation) -> None:
-    """Copy the elements for simulators and controllers of a URDF source."""
+    """Copy the elements for simulators and controllers of a URDF source, and unknown ones."""
     source = t.robot.xml
     for element in () if source is None else source.children:
-        if element.tag in _COPIED:
+        if element.tag not in NOT_COPIED:
             copy_element(t.root, element)
 
 

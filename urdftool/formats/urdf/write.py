@@ -23,7 +23,7 @@ from ..common.force_fallbacks import (
 from ..common.missing_bounds import explain_missing_bounds
 from ..common.naming import replace_file_name, shorten_file_name
 from ..common.numbers import number_text
-from ..common.unexpressed import report_world_settings
+from ..common.unexpressed import report_other_elements, report_world_settings
 from ..defects import refuse
 from ..written import Written
 from .control import add_control
@@ -200,8 +200,9 @@ def _bound(value: float | None, default: float) -> float:
 
 def _add_ball(t: Translation, joint: Joint, name: str, parent: str, child: str) -> None:
     """Write a ball joint as three hinges with links without mass between them."""
+    rest = "" if joint.limit is None else "; its limit is dropped"
     text = f"joint '{joint.name}' is three hinges about x, y and z, since URDF has no ball joints"
-    t.written.report_loss("ball", text, joint.place, kind="joint", name=joint.name)
+    t.written.report_loss("ball", text + rest, joint.place, kind="joint", name=joint.name)
     origin = joint.origin
     for number, axis in enumerate(("1 0 0", "0 1 0", "0 0 1")):
         to = child if number == 2 else t.names.taken_links.take(f"{name}_{'xy'[number]}_link")
@@ -239,8 +240,11 @@ def _get_frame_name(frame: Frame) -> str:
 def _report_unexpressed(t: Translation) -> None:
     """Report what URDF cannot hold, once for each kind."""
     robot = t.robot
-    if robot.xml is None:  # <mujoco> of a URDF is copied
+    if robot.xml is None:
         report_world_settings(robot, t.written)
+    else:
+        copied = {element.tag for element in robot.xml.children} - {"mujoco"}
+        report_other_elements(robot, t.written, expressed=copied)
     rotors = [j for j in robot.joints if j.dynamics is not None and j.dynamics.armature]
     kinds = (
         ("armature", "rotor inertia (armature) of joints is dropped", rotors),

@@ -28,6 +28,7 @@ EXCUSES = (
     Excuse(("frames", "tree", "base"), frozenset(("lossy-floating-joint",)), "robot"),
     Excuse(("tree",), frozenset(("lossy-mimic",))),
     Excuse(("limits",), frozenset(("lossy-effort",)), properties=("limit of effort",)),
+    Excuse(("limits",), frozenset(("lossy-ball-limit",))),
     Excuse(("limits",), frozenset(("lossy-velocity",)), properties=("limit of velocity",)),
     Excuse(("collisions", "visuals", "surface", "colors", "textures"), frozenset(SHAPES)),
     Excuse(("collisions",), frozenset(("lossy-convex",))),
