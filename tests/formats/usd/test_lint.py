@@ -105,3 +105,11 @@ def test_a_stage_that_is_not_opened_is_an_error(write, urdftool):
     result = urdftool("lint", path, "--no-cache")
     assert result.code == 2
     assert result.out.count("[unreadable-model]") == 1
+
+
+def test_a_layer_that_is_repaired_is_read_again(urdftool, write):
+    stage = write("r.usda", HEAD.format("    subLayers = [@./b.usda@]\n"))
+    write("b.usda", HEAD.format("") + BODY[:-2])
+    assert "1 file not checked" in urdftool("lint", stage).err
+    write("b.usda", HEAD.format("") + BODY)
+    assert "not checked" not in urdftool("lint", stage).err

@@ -14,6 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from ...dependencies import Dependencies
+from ...errors import UrdftoolError
 from ...extras import is_installed, make_missing_error
 from ...limited import Limits, call_with_limits
 from ...source.document import STDIN
@@ -62,7 +63,7 @@ def read(
         report_limits("OpenUSD", "stage", Place(opened.file, 0, 0)),
         _locate(opened.file) as located,
     ):
-        reading, read_files = call_with_limits(
+        result, read_files = call_with_limits(
             _read_stage,
             *opened,
             *(str(path), located, name, folder),
@@ -72,7 +73,9 @@ def read(
         )
     if opened.workspace.dependencies is not None:
         opened.workspace.dependencies.include(read_files)
-    return reading
+    if isinstance(result, UrdftoolError):
+        raise result
+    return result
 
 
 def _import_library() -> None:
@@ -87,7 +90,7 @@ def _import_library() -> None:
 
 def _read_stage(
     file: SourceFile, packages: Packages, workspace: Workspace, *arguments: Any
-) -> tuple[Reading, Dependencies]:
+) -> tuple[Reading | UrdftoolError, Dependencies]:
     """Read a robot in the process with limits, which imports OpenUSD."""
     from .read_child import read_stage
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...dependencies import Dependencies
+from ...errors import UrdftoolError
 from ...model.elements import Robot
 from ...model.provenance import Written
 from ...source.description import Description
 from ...source.document import Document, Element
 from ...source.location import Place
+from ...workspace import Workspace
 from ..reading import Losses, Opened, Reading
 from .read_mesh import MeshFolder
 from .read_native import add_native
@@ -22,8 +24,8 @@ from .read_unread import report_unread
 
 def read_stage(
     opened: Opened, shown: str, path: str, name: str, mesh_folder: Path
-) -> tuple[Reading, Dependencies]:
-    """Read a robot, and return the files that were read.
+) -> tuple[Reading | UrdftoolError, Dependencies]:
+    """Read a robot, and return it or why it cannot be read, and the files that were asked for.
 
     Args:
         opened: The file, finder of packages, and access to files.
@@ -31,14 +33,25 @@ def read_stage(
         path: The file, or a copy of standard input.
         name: Name or path of an articulation; empty for the one with most bodies.
         mesh_folder: Folder for the meshes of the stage.
+    """
+    view = opened.workspace.with_record()
+    assert view.dependencies is not None
+    try:
+        return _read(opened, view, shown, path, name, mesh_folder), view.dependencies
+    except UrdftoolError as error:
+        return error, view.dependencies
+
+
+def _read(
+    opened: Opened, view: Workspace, shown: str, path: str, name: str, mesh_folder: Path
+) -> Reading:
+    """Read a robot.
 
     Raises:
         SourceError: A layer cannot be read.
         ModelError: OpenUSD does not open it, or it has no rigid body.
     """
-    file, finder, workspace = opened
-    view = workspace.with_record()
-    assert view.dependencies is not None
+    file, finder, _ = opened
     losses = Losses()
     with convert_errors(file):
         stage, layers = open_stage(path, file, losses, view)
@@ -57,4 +70,4 @@ def read_stage(
             folder.remove_new()
             raise
     robot.unread = losses.make_findings()
-    return Reading(robot, robot.unread), view.dependencies
+    return Reading(robot, robot.unread)
