@@ -33,6 +33,7 @@ COMMANDS = (
 
 REPORT_BUGS = "https://github.com/urdftool/urdftool/issues"
 _LONGEST_NAME = 80
+"""Characters of a name in a message. Chosen, no source."""
 
 
 class ClosedPipe(Exception):  # noqa: N818 -- reads as what happened

@@ -24,8 +24,8 @@ Stamp = tuple[int, ...]
 """Mode, device, inode, size and times [ns] of a file or folder; its type for other kinds."""
 
 ABSENT = "-"
-_FRESH_NS = 2_000_000_000  # a newer file may change again without a change of its times
-_SHARED = 50  # larger sets are referenced by their users, not copied
+_FRESH_NS = 2_000_000_000  # a newer file may change again without a change of its times; chosen
+_SHARED = 50  # larger sets are referenced by their users, not copied; chosen
 _WITHOUT_STAMP = ("env", "real")
 
 

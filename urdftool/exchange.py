@@ -9,8 +9,8 @@ from pathlib import Path
 
 _UNSUPPORTED = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP)
 _AT_CURRENT_FOLDER = -100  # AT_FDCWD of Linux
-_LINUX_EXCHANGE = 2  # RENAME_EXCHANGE of renameat2
-_MACOS_SWAP = 2  # RENAME_SWAP of renamex_np
+_LINUX_EXCHANGE = 2  # RENAME_EXCHANGE of renameat2(2) of Linux
+_MACOS_SWAP = 2  # RENAME_SWAP of renamex_np of macOS
 
 
 def exchange_names(one: Path, other: Path) -> bool:

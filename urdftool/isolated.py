@@ -21,7 +21,7 @@ from .parallel import ignore_interrupts, limit_resources
 
 T = TypeVar("T")
 
-_DYING = 2.0  # s: time to exit after the end of output
+_DYING = 2.0  # s: time to exit after the end of output; chosen
 LONGEST = 1e9  # s: RLIMIT_CPU must fit an integer
 _PARENT_ENDED = 1  # PR_SET_PDEATHSIG of prctl(2)
 

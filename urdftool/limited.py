@@ -25,8 +25,8 @@ from .parallel import WATCHER, can_fork, limit_resources, make_picklable, measur
 T = TypeVar("T")
 
 _MOST_ARENAS = -8, 2  # M_ARENA_MAX of mallopt(3): each thread would reserve 64 MiB of addresses
-_MAPPED = 1 << 30  # bytes: mapped files, and addresses that are only reserved
-_PAUSE = 0.005  # s: between two looks at a process
+_MAPPED = 1 << 30  # bytes: mapped files, and addresses that are only reserved; chosen
+_PAUSE = 0.005  # s: between two looks at a process; chosen
 
 
 class Limits(NamedTuple):

@@ -26,7 +26,7 @@ Progress = Callable[[int, Sequence[T]], None]
 WATCHER = "urdftool-watcher"
 """Name of the thread of a worker that waits for the end of the parent, and holds no lock."""
 
-_LEAVING = 3.0  # s: time to remove temporary files after SIGTERM
+_LEAVING = 3.0  # s: time to remove temporary files after SIGTERM; chosen
 
 
 def count_cores() -> int:

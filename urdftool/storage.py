@@ -30,9 +30,10 @@ Content = bytes | Path
 """Content of a file to write: its bytes, or the path of a file to copy."""
 
 _HEAD = 65  # bytes: digest in hexadecimal digits and a line feed
-_LARGEST = 256 * 1024 * 1024  # bytes of an entry that is read
+_LARGEST = 256 * 1024 * 1024  # bytes of an entry that is read; chosen
 _ENTRY = re.compile(r"[0-9a-f]{64}|\.[0-9a-f]{64}\.\d+\.tmp")  # names of files in a cache
 _DAY = 24 * 3600.0
+"""Seconds of a day, by definition."""
 
 
 class _Step(NamedTuple):

@@ -202,13 +202,13 @@ def is_name_of_file(value: str) -> bool:
 
 def _find_asset_folders(root: Element) -> dict[str, str]:
     """Return the folders of meshes and textures of an MJCF, by the tag of the reference."""
-    found: dict[str, str] = {}
+    asset_folders: dict[str, str] = {}
     for compiler in root.list_children("compiler"):
         both = compiler.get("assetdir") or ""
         meshes = compiler.get("meshdir") or both
         textures = compiler.get("texturedir") or both
-        found |= {"mesh": meshes, "hfield": meshes, "texture": textures}
-    return found
+        asset_folders |= {"mesh": meshes, "hfield": meshes, "texture": textures}
+    return asset_folders
 
 
 def _check_reference(

@@ -59,10 +59,10 @@ class Asset:
 
     def list_companions(self) -> set[Path]:
         """Return the real paths of the files that it refers to, directly or by its materials."""
-        found = set()
+        companions = set()
         for other in filter(None, self.references.values()):
-            found |= {other.path.resolve(), *other.list_companions()}
-        return found
+            companions |= {other.path.resolve(), *other.list_companions()}
+        return companions
 
 
 @dataclass

@@ -106,13 +106,13 @@ def _get_name(element: Element) -> str:
 
 def _list_content(material: Element) -> list[tuple[str, object]]:
     """Return the color and image of a material, in a form that compares numbers."""
-    found: list[tuple[str, object]] = []
+    content: list[tuple[str, object]] = []
     for child in material.children:
         if child.tag == "color" and child.get("rgba"):
-            found.append(("color", _parse_numbers(child.get("rgba") or "")))
+            content.append(("color", _parse_numbers(child.get("rgba") or "")))
         elif child.tag == "texture" and child.get("filename"):
-            found.append(("texture", (child.get("filename") or "").strip()))
-    return sorted(found, key=lambda item: item[0])
+            content.append(("texture", (child.get("filename") or "").strip()))
+    return sorted(content, key=lambda item: item[0])
 
 
 def _is_equal(one: Element, other: Element) -> bool:

@@ -86,12 +86,12 @@ def read_digests(data: bytes) -> dict[str, str] | None:
 
 def list_known_missing(document: Mapping[str, Any]) -> dict[str, set[str]]:
     """Return the references that had no file in the source either, by path of the file."""
-    found = {}
+    known_missing = {}
     for entry in document["files"]:
         missing = entry.get("missing")
         if isinstance(missing, list):
-            found[entry["path"]] = {name for name in missing if isinstance(name, str)}
-    return found
+            known_missing[entry["path"]] = {name for name in missing if isinstance(name, str)}
+    return known_missing
 
 
 def parse_manifest(data: bytes) -> Mapping[str, Any] | None:

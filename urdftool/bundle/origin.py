@@ -66,7 +66,7 @@ def find_licenses(sources: Iterable[Path]) -> dict[str, Path]:
     Returns:
         License files by their path in the bundle.
     """
-    found: dict[str, Path] = {}
+    licenses: dict[str, Path] = {}
     seen: set[str] = set()
     for folder in dict.fromkeys(path.parent for path in sources):
         for place in _list_folders(folder):
@@ -78,11 +78,11 @@ def find_licenses(sources: Iterable[Path]) -> dict[str, Path]:
             for path in _list_licenses(place):
                 name = f"licenses/{group}/{_make_file_name(path.name)}"
                 number = 1
-                while name in found:
+                while name in licenses:
                     number += 1
                     name = f"licenses/{group}/{number}_{_make_file_name(path.name)}"
-                found[name] = path
-    return found
+                licenses[name] = path
+    return licenses
 
 
 def list_declared_licenses(sources: Iterable[Path]) -> dict[str, list[str]]:
@@ -164,7 +164,7 @@ def find_repositories(sources: Mapping[Path, str]) -> list[Repository]:
         root = find_repository(real.parent, Workspace())
         if root is not None:
             by_root.setdefault(root, {})[real] = name
-    found = []
+    repositories = []
     for root, files in sorted(by_root.items()):
         commit = _run_git(root, "rev-parse", "--verify", "--quiet", "HEAD")
         if not commit:
@@ -173,8 +173,8 @@ def find_repositories(sources: Mapping[Path, str]) -> list[Repository]:
         repository.modified.extend(sorted(_find_modified(root, files)))
         owners = (find_own_package(path) for path in files)
         repository.packages.extend(sorted({own[0] for own in owners if own is not None}))
-        found.append(repository)
-    return found
+        repositories.append(repository)
+    return repositories
 
 
 def _list_folders(folder: Path) -> Iterator[Path]:

@@ -226,7 +226,7 @@ def _measure_links(urdf: Any, scene: Any) -> dict[str, Array]:
     """Return the bounds of each link's geometry in its frame, shape (2, 3) [m]."""
     names = {link.name for link in urdf.robot.links}
     parents = scene.graph.transforms.parents
-    found: dict[str, Array] = {}
+    links: dict[str, Array] = {}
     for node in sorted(scene.graph.nodes_geometry):
         link = node
         while link not in names and link in parents:
@@ -234,12 +234,12 @@ def _measure_links(urdf: Any, scene: Any) -> dict[str, Array]:
         matrix, geometry = scene.graph.get(node, link)
         vertices = np.asarray(scene.geometry[geometry].vertices) @ matrix[:3, :3].T + matrix[:3, 3]
         bounds = np.array([vertices.min(axis=0), vertices.max(axis=0)])
-        if link in found:
+        if link in links:
             bounds = np.array(
-                [np.minimum(found[link][0], bounds[0]), np.maximum(found[link][1], bounds[1])]
+                [np.minimum(links[link][0], bounds[0]), np.maximum(links[link][1], bounds[1])]
             )
-        found[link] = bounds
-    return found
+        links[link] = bounds
+    return links
 
 
 @contextmanager

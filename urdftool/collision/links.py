@@ -272,7 +272,7 @@ def get_settings(name: str, options: CollisionOptions) -> tuple[Settings, bool]:
 
 
 def _read_settings(table: Mapping[str, Any], path: str | None) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    settings: dict[str, Any] = {}
     for key, value in table.items():
         if key == "method":
             if value not in METHODS:
@@ -295,5 +295,5 @@ def _read_settings(table: Mapping[str, Any], path: str | None) -> dict[str, Any]
         else:
             known = ", ".join(("method", "quality", *_NUMBERS, *_COUNTS, "cover", "links"))
             raise ConfigError(f"no option is called collision.{key}; there are {known}", path=path)
-        found[key.replace("-", "_")] = value
-    return found
+        settings[key.replace("-", "_")] = value
+    return settings

@@ -27,6 +27,8 @@ SIZE = (640, 560)
 _MARGIN = 14  # pixels
 _LETTERS = 18  # height of letters [pixels]
 _GREY = (0.72, 0.74, 0.78, 1.0)
+"""Color of the surface. Chosen, no source."""
+
 _CAMERA = Camera(np.radians(-50.0), np.radians(25.0))
 
 # light enough to be distinguished when shaded
@@ -40,6 +42,7 @@ _COLORS = (
     (0.90, 0.55, 0.70),
     (0.62, 0.60, 0.45),
 )
+"""Colors of the pieces, in turn. Chosen, no source."""
 
 
 def draw_mesh(task: Task, result: Result) -> bytes:

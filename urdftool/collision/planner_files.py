@@ -22,7 +22,7 @@ def collect_planner_spheres(
     plans: Sequence[LinkPlan], results: Mapping[Task, Result]
 ) -> dict[str, list[tuple[tuple[float, ...], float]]]:
     """Return center [m], in the frame of the link, and radius [m] of each sphere, by link."""
-    found: dict[str, list[tuple[tuple[float, ...], float]]] = {}
+    planner_spheres: dict[str, list[tuple[tuple[float, ...], float]]] = {}
     for item in plans:
         for use in item.uses:
             if use.task is None:
@@ -33,9 +33,9 @@ def collect_planner_spheres(
                 if piece.kind == "sphere":
                     center = rotation @ piece.center + shift
                     rounded = tuple(round(float(value), 6) + 0.0 for value in center)
-                    spheres = found.setdefault(item.link.name, [])
+                    spheres = planner_spheres.setdefault(item.link.name, [])
                     spheres.append((rounded, _round_up(piece.size[0])))
-    return found
+    return planner_spheres
 
 
 def _round_up(radius: float) -> float:

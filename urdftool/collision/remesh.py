@@ -168,7 +168,7 @@ def _list_triangles(tetrahedra: Numbers, solid: npt.NDArray[np.bool_]) -> list[N
     """Return the edges that each triangle cuts, as three pairs of ends, shape (m, 3, 2, 3)."""
     inside = solid[tetrahedra[..., 0], tetrahedra[..., 1], tetrahedra[..., 2]]
     code = inside @ np.array([1, 2, 4, 8])
-    found = []
+    triangles = []
     for case in range(1, 15):
         some = tetrahedra[code == case]
         if not len(some):
@@ -189,8 +189,8 @@ def _list_triangles(tetrahedra: Numbers, solid: npt.NDArray[np.bool_]) -> list[N
             out = some[:, without].mean(axis=1) - some[:, within].mean(axis=1)
             inwards = np.einsum("ij,ij->i", normal, out) < 0
             cut[inwards] = cut[inwards][:, ::-1]
-            found.append(cut)
-    return found
+            triangles.append(cut)
+    return triangles
 
 
 def widen(cells: npt.NDArray[np.bool_], by: int) -> npt.NDArray[np.bool_]:

@@ -18,7 +18,7 @@ SHARED_OPTIONS = (
 NAMED = "\0"
 """Start of a word that is the name of a robot; no word of a command line contains it."""
 
-_MAX_COLUMN = 26  # characters; a longer option has a line of its own
+_MAX_COLUMN = 26  # characters; a longer option has a line of its own; chosen
 _EXAMPLES = "\n\n\b\n"
 
 

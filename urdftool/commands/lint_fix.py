@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..lint.settings import Settings
     from .lint_report import OutputOptions
 
-_MOST = 6  # rules that a message names
+_MOST = 6  # rules that a message names; chosen
 
 
 class Kinds(NamedTuple):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..lint.outcome import Outcome, Report
     from ..lint.settings import Settings
 
-_MOST_ENTRIES = 3  # entries that a message names
+_MOST_ENTRIES = 3  # entries that a message names; chosen
 
 
 @dataclass

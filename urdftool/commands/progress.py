@@ -19,8 +19,8 @@ PIPE_PATIENCE, PIPE_TICK = 2.0, 5.0
 """Time before the first line where stderr is not a terminal, and between two lines [s]. Chosen, no
 source."""
 
-_TICK = 0.5  # s between two updates of the elapsed time
-_BAR, _LONGEST = 24, 60  # characters
+_TICK = 0.5  # s between two updates of the elapsed time; chosen
+_BAR, _LONGEST = 24, 60  # characters; chosen
 
 
 class Progress:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
     from ..simulation.settings import Settings
 
-_MOST = 4  # controllers that a message names
+_MOST = 4  # controllers that a message names; chosen
 
 
 def apply_controllers(

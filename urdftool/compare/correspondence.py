@@ -139,11 +139,13 @@ def parse_correspondence(
         count: Number of robots.
         path: File, for messages.
     """
-    found = Correspondence()
+    correspondence = Correspondence()
     for number, words in lines:
         reader = _READERS.get(words[0])
         if words[0] in ("joint", "link", "part") and len(words) == count + 1:
-            found = found._replace(names=[*found.names, (words[0], tuple(words[1:]))])
+            correspondence = correspondence._replace(
+                names=[*correspondence.names, (words[0], tuple(words[1:]))]
+            )
             continue
         try:
             if reader is None:
@@ -154,12 +156,12 @@ def parse_correspondence(
                     f"two robots, not {count}",
                     path=path,
                 )
-            found = reader(found, words[1:])._replace(is_declared=True)
+            correspondence = reader(correspondence, words[1:])._replace(is_declared=True)
         except _MalformedError:
             raise ConfigError(
                 f"line {number} is not {_describe(words[0], count)}", path=path
             ) from None
-    return found
+    return correspondence
 
 
 def _describe(kind: str, count: int) -> str:

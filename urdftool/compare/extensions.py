@@ -67,11 +67,11 @@ def _flatten_others(robot: Robot, renamed: Mapping[str, str], kind: str) -> dict
 
 def _collect_blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, list[Element]]:
     """Return blocks by their name or reference."""
-    found: dict[str, list[Element]] = {}
+    blocks: dict[str, list[Element]] = {}
     for element in () if robot.xml is None else robot.xml.list_children(tag):
         name = element.get("reference" if tag == "gazebo" else "name") or ""
-        found.setdefault(renamed.get(name, name), []).append(element)
-    return found
+        blocks.setdefault(renamed.get(name, name), []).append(element)
+    return blocks
 
 
 def list_tags(robot: Robot, difference: Difference, renamed: Mapping[str, str]) -> set[str]:

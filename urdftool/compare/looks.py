@@ -131,10 +131,10 @@ def _get_settings(pair: Pair, robot: Robot, link: Link, visual: Visual) -> Setti
     """Return the appearance of a visual, only what blocks set if both robots are URDF."""
     if pair.formats == ("urdf", "urdf"):
         return visual.appearance
-    found = dict(get_appearance(robot, link, visual))
+    settings = dict(get_appearance(robot, link, visual))
     if "metalness" not in visual.appearance and _find_image(robot, visual) is None:
-        found.pop("metalness", None)  # of an image that does not exist
-    return found
+        settings.pop("metalness", None)  # of an image that does not exist
+    return settings
 
 
 def _find_image(robot: Robot, visual: Visual) -> Path | None:

@@ -110,14 +110,14 @@ class Checkout:
 
     def find_neighbors(self) -> Mapping[str, Path]:
         """Return packages in present submodules, and next to a repository that is a package."""
-        found: dict[str, Path] = {}
+        neighbors: dict[str, Path] = {}
         above = self.top.parent
         if len(above.parts) > 2 and (self.top / "package.xml").exists():  # do not search / or /home
             packages = find_packages(above)
-            found |= {n: p for n, p in packages.items() if self.top not in (p, *p.parents)}
+            neighbors |= {n: p for n, p in packages.items() if self.top not in (p, *p.parents)}
         for module in self.modules:
-            found |= find_packages(self.top / module)
-        return found
+            neighbors |= find_packages(self.top / module)
+        return neighbors
 
 
 def parse_revision(word: str) -> Named | None:

@@ -11,7 +11,7 @@ from .points import compute_bounds, compute_extent, shift_points, transform_poin
 from .raster import Floats
 
 MARGIN = 0.06
-"""Part of the picture's width or height that stays empty on each side."""
+"""Part of the picture's width or height that stays empty on each side. Chosen, no source."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import numpy as np
 from .raster import Floats, Indices
 
 NEAREST = 1e-4
-"""Distance of the clipping plane, relative to the farthest corner."""
+"""Distance of the clipping plane, relative to the farthest corner. Chosen, no source."""
 
 
 def compute_near_plane(corners: Floats) -> float:

@@ -22,14 +22,18 @@ from .visibility import Cloud, choose_best_camera, draw_through
 TURN = math.pi / 2
 """Displacement of a joint without limits [rad]."""
 
-_SLIDE = 0.25  # of the robot's size, for a prismatic joint without limits
+_SLIDE = 0.25  # of the robot's size, for a prismatic joint without limits; chosen
 _PAPER = (250, 250, 251)
+"""Color of the page. Chosen, no source."""
+
 _GREY, _FADED = np.array([0.80, 0.81, 0.82]), 0.82
 _CHILD, _AFTER = np.array([0.95, 0.42, 0.10]), np.array([0.97, 0.68, 0.42])
 _MARGIN, _GAP = 16, 6
+"""Pixels around the page, and between two pictures. Chosen, no source."""
+
 _HIGH = math.radians(55.0)  # elevation of the upper cameras
 _FULL = 2 * math.pi - math.radians(2.0)  # limits this far apart show the same pose twice
-_SHAPE = 1.35  # desired width over height of a sheet
+_SHAPE = 1.35  # desired width over height of a sheet; chosen
 
 
 @dataclass(frozen=True)

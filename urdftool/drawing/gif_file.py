@@ -9,7 +9,7 @@ import numpy as np
 
 from .png_file import Image
 
-_SEEN = 12  # pictures sampled for the palette
+_SEEN = 12  # pictures sampled for the palette; chosen
 _COLORS = 255  # one entry is reserved for unchanged pixels
 
 

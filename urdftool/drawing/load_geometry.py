@@ -35,13 +35,13 @@ from .raster import Floats, Indices
 from .texture import Texels, read_texture
 
 OVERLAY: Rgba = (0.08, 0.70, 0.42, 0.36)
-"""Color of collision geometry drawn over visual geometry."""
+"""Color of collision geometry drawn over visual geometry. Chosen, no source."""
 
 TOUCHED: Rgba = (0.47, 0.80, 0.64, 1.0)
-"""Color of collision geometry drawn alone."""
+"""Color of collision geometry drawn alone. Chosen, no source."""
 
 AROUND = 64
-"""Corners of a circle."""
+"""Corners of a circle. Chosen, no source."""
 
 LARGEST = 1e30
 """Coordinate [m] beyond which nothing is drawn."""

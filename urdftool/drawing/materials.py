@@ -8,7 +8,7 @@ from ..model.materials import resolve_material
 Rgba = tuple[float, float, float, float]
 
 PLAIN: Rgba = (0.76, 0.78, 0.80, 1.0)
-"""Color of visuals without a color."""
+"""Color of visuals without a color. Chosen, no source."""
 
 
 TINTS: tuple[Rgba, ...] = (

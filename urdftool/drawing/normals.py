@@ -13,7 +13,10 @@ CREASE = math.cos(math.radians(38.0))
 """Cosine of the angle between two faces above which their common edge is sharp."""
 
 _MANY = 40
+"""Faces at a vertex above which only the mean of their normals counts. Chosen, no source."""
+
 _PAIRS_AT_ONCE = 4_000_000
+"""Pairs of faces computed at a time, which bounds memory."""
 
 
 def compute_corner_normals(vertices: Points, faces: Faces) -> Floats:

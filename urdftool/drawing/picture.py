@@ -36,13 +36,18 @@ SIZE = (1280, 960)
 """Default width and height of a picture in pixels."""
 
 FINER = 2
-"""Samples along each side of a pixel."""
+"""Samples along each side of a pixel. Chosen, no source."""
 
 LAYERS = 12
-"""Largest number of transparent surfaces drawn at one sample, the nearest first."""
+"""Largest number of transparent surfaces drawn at one sample, the nearest first. Chosen, no
+source."""
 
 _CASTS = 0.5
+"""Opacity above which a surface casts a shadow. Chosen, no source."""
+
 _AT_ONCE = 20_000
+"""Samples shaded at a time, which bounds memory."""
+
 _BEFORE = np.float32(1.0005)  # a transparent surface that coincides with an opaque one is visible
 
 
@@ -197,14 +202,23 @@ def _average_pixels(samples: Colors, size: tuple[int, int]) -> Colors:
 
 
 BACKDROP = ((0.985, 0.987, 0.99), (0.87, 0.885, 0.905))
-"""Colors of the backdrop at its upper and lower edge, as displayed."""
+"""Colors of the backdrop at its upper and lower edge, as displayed. Chosen, no source."""
 
 _FLOOR = (0.80, 0.815, 0.835)
+"""Color of the floor, as displayed. Chosen, no source."""
+
 _LINE = (0.66, 0.68, 0.71)
+"""Color of the lines on the floor, as displayed. Chosen, no source."""
+
 _SHADE, _CONTACT = 0.50, 0.45
-_SOFT, _NEAR = 0.010, 0.016  # relative to the width of the map
+"""Share of light that a shadow, and a contact, takes from the floor. Chosen, no source."""
+
+_SOFT, _NEAR = 0.010, 0.016  # relative to the width of the map; chosen
 _CONTACT_MAP = 256
+"""Pixels along each side of the map of contacts. Chosen, no source."""
+
 _FAR = 3.0
+"""Radius of the floor, relative to that of the scene. Chosen, no source."""
 
 
 def make_background(size: tuple[int, int], color: tuple[float, float, float] | None) -> Colors:

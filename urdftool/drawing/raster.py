@@ -18,7 +18,10 @@ NO_TRIANGLE = -1
 
 # sized for the processor's cache
 _ROWS_AT_ONCE = 100_000
+"""Rows of triangles filled at a time, which bounds memory."""
+
 _SAMPLES_AT_ONCE = 250_000
+"""Samples filled at a time, which bounds memory."""
 
 
 class Samples(NamedTuple):

@@ -16,12 +16,20 @@ Colors = npt.NDArray[np.float32]
 """Red, green and blue, in linear light unless stated otherwise."""
 
 GAMMA = 2.2
+"""Exponent from displayed to linear colors, about that of sRGB. Chosen, no source."""
 
 _SKY, _EARTH = 0.47, 0.25
+"""Light from above and from below. Chosen, no source."""
+
 _KEY, _FILL, _SHINE = 0.60, 0.16, 0.10
+"""Light of the main lamp, of the second one, and of the gloss. Chosen, no source."""
+
 _HARDNESS = 28.0
+"""Exponent of the gloss. Chosen, no source."""
+
 _BLACK = np.float32(0.006)  # least reflectance; a perfectly black surface would show no shape
 _TAPS = ((0.0, 0.0), (-1.1, -0.4), (0.4, -1.1), (1.1, 0.4), (-0.4, 1.1))
+"""Offsets in pixels at which the map of shadows is read. Chosen, no source."""
 
 
 def to_linear(colors: npt.NDArray[np.floating]) -> Colors:

@@ -20,11 +20,12 @@ from .shapes import Shapes
 Mask = npt.NDArray[np.bool_]
 
 POINTS = 12_000
-"""Number of sampled points for comparing views; each represents an equal area."""
+"""Number of sampled points for comparing views; each represents an equal area. Chosen, no
+source."""
 
 _GRID = (72, 60)  # pixels of the compared pictures
-_THROUGH = 0.55  # weight of the hidden surface in a blended pixel
-_NEAR = 0.01  # points this close in depth, relative to the scene's, are of one surface
+_THROUGH = 0.55  # weight of the hidden surface in a blended pixel; chosen
+_NEAR = 0.01  # points this close in depth, relative to the scene's, are of one surface; chosen
 
 
 class Cloud:

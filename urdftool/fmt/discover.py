@@ -10,6 +10,8 @@ from ..lint.discover import has_ending, list_files
 
 ENDINGS = (".urdf", ".xacro", ".sdf", ".srdf", ".world", ".mjcf")
 _HEAD = 16_384
+"""Bytes in which the root element must begin. Chosen, no source."""
+
 _ROOT = re.compile(
     rb"\A(?:\xef\xbb\xbf)?(?:\s+|<\?.*?\?>|<!--.*?-->)*<(?:mujoco|mujocoinclude|robot|sdf)[\s/>]",
     re.DOTALL,

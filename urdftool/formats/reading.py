@@ -26,7 +26,10 @@ LARGEST = 1e30
 """Largest number of a mass, size or pose; products of larger ones overflow."""
 
 _SHOWN = 3
+"""Names in a finding. Chosen, no source."""
+
 _LISTED = 20
+"""Names of robots in a message. Chosen, no source."""
 
 
 @dataclass

@@ -33,12 +33,12 @@ LARGEST = 64_000_000
 
 _DIRECTIONS = 90
 """Points of the unit sphere in whose directions extreme points are kept; chosen, no source."""
-_KEPT = 50_000  # larger meshes keep only their extreme points
-_FEW = 3_000  # meshes up to this size are deduplicated first
+_KEPT = 50_000  # larger meshes keep only their extreme points; chosen
+_FEW = 3_000  # meshes up to this size are deduplicated first; chosen
 _ALIGNED = 1e-12
 """Component of a unit vector [1] below which it is rounding of zero: 10^4 times that of doubles.
 Chosen, no source."""
-_BLOCK = 2048  # small enough that the product with 32 directions stays on one core
+_BLOCK = 2048  # small enough that the product with 32 directions stays on one core; chosen
 
 
 class ConvexPoints:

@@ -33,6 +33,8 @@ MAX_DEPTH = 256
 """Largest depth of nested nodes, which may form a cycle in a damaged file. Chosen, no source."""
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+"""Modes of primitives, as glTF numbers them."""
+
 _UPRIGHT: Array = np.array(
     [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
 )

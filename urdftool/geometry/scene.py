@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from ..workspace import Workspace
 
 _GRAY = (0.7, 0.7, 0.7, 1.0)
+"""Color of a surface without one. Chosen, no source."""
 
 
 def make_scene(

@@ -13,7 +13,7 @@ from .stl_header import HEADER_BYTES, TRIANGLE_BYTES, StlHeader, read_stl_header
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
-_CHUNK = 500_000  # triangles read at a time
+_CHUNK = 500_000  # triangles read at a time; chosen
 
 
 def read(path: Path) -> Reading:

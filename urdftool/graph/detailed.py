@@ -79,11 +79,11 @@ def _add_edges(figure: Figure, joint: Joint, node: Node, keys: dict[str, str]) -
 
 
 def _group_transmissions(robot: Robot) -> dict[str, list[Transmission]]:
-    found: dict[str, list[Transmission]] = {}
+    transmissions: dict[str, list[Transmission]] = {}
     for transmission in robot.transmissions:
         for joint in transmission.joints:
-            found.setdefault(joint.name, []).append(transmission)
-    return found
+            transmissions.setdefault(joint.name, []).append(transmission)
+    return transmissions
 
 
 def _make_link_node(link: Link) -> Node:

@@ -185,14 +185,14 @@ def _make_links(node: Node, folder: str | None) -> dict[str, str]:
     place = node.place
     lines = [f"{node.kind} {node.name}", *node.lines, *node.faults]
     lines += [f"{f.severity.label}: {f.message} [{f.code}]" for f in node.findings]
-    found = {}
+    links = {}
     if place is not None:
         lines.insert(1, f"{place.path}:{place.line}")
         if not place.path.startswith("<"):
             path = os.path.relpath(os.path.abspath(place.path), os.path.abspath(folder))
-            found["URL"] = f'"{quote(path.replace(os.sep, "/"))}#L{place.line}"'
+            links["URL"] = f'"{quote(path.replace(os.sep, "/"))}#L{place.line}"'
     # Graphviz resolves the escapes of a tooltip twice
-    found["tooltip"] = _join_lines(
+    links["tooltip"] = _join_lines(
         [line.replace("\\", "\\\\") for line in map(escape_controls, lines)]
     )
-    return found
+    return links

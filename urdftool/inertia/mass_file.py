@@ -33,14 +33,14 @@ def read_masses(path: str | Path) -> dict[str, float]:
         raise SourceError("is not text in UTF-8", path=path) from None
     if len(data) > MAX_BYTES:
         raise SourceError("is too large for a list of masses", path=path)
-    found = (
+    masses = (
         _read_yaml(text, file)
         if file.suffix.lower() in (".yaml", ".yml")
         else _read_csv(text, file)
     )
-    if not found:
+    if not masses:
         raise SourceError("has no masses; expected rows of link,mass", path=path)
-    return found
+    return masses
 
 
 def _read_csv(text: str, path: Path) -> dict[str, float]:

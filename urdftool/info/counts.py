@@ -135,20 +135,20 @@ def _collect_sensors(robot: Robot) -> list[Named]:
 
 def _find_packages(robot: Robot) -> dict[str, str | None]:
     """Return the folders of packages used by xacro and by meshes; None if not found."""
-    found: dict[str, str | None] = {}
+    packages: dict[str, str | None] = {}
     if robot.source is not None:
-        found = {name: str(folder) for name, folder in robot.source.packages.used.items()}
+        packages = {name: str(folder) for name, folder in robot.source.packages.used.items()}
     for _, shape in robot.shapes:
         if not isinstance(shape.geometry, Mesh):
             continue
         scheme, separator, rest = shape.geometry.filename.partition("://")
         name = rest.partition("/")[0]
-        if not (separator and scheme in ("package", "model") and name) or name in found:
+        if not (separator and scheme in ("package", "model") and name) or name in packages:
             continue
-        found[name] = None
+        packages[name] = None
         if robot.source is not None:
             try:
-                found[name] = str(robot.source.packages.find(name))
+                packages[name] = str(robot.source.packages.find(name))
             except PackageNotFound:
                 continue
-    return found
+    return packages

@@ -33,7 +33,8 @@ NEAR = 0.1
 """Part of the box's length by which the center of mass counts as away from the ends of the box."""
 
 SHORTEST = 1.05
-"""Least factor that a message states; below it the center of mass, near an end, is the reason."""
+"""Least factor that a message states; below it the center of mass, near an end, is the reason.
+Chosen."""
 
 MARGIN = 0.02
 """Part of the box's diagonal by which the center of mass may lie outside; doubled for meshes."""

@@ -49,17 +49,17 @@ class Mechanics:
         Args:
             positions: Joint positions by name [rad or m]; zero for joints that are not given.
         """
-        found = {self.root: np.eye(4)}
+        frames = {self.root: np.eye(4)}
         todo = [self.root]
         while todo:
             parent = todo.pop()
             for joint in self._below.get(parent, ()):
-                moved = found[parent] @ get_origin_matrix(joint.origin)
+                moved = frames[parent] @ get_origin_matrix(joint.origin)
                 if joint.name in self._column:
                     moved = moved @ _compute_motion(joint, positions.get(joint.name, 0.0))
-                found[joint.child] = moved
+                frames[joint.child] = moved
                 todo.append(joint.child)
-        return found
+        return frames
 
     def compute_mass_matrix(self, positions: Mapping[str, float]) -> Array:
         """Compute the joint-space mass matrix [kg·m², kg·m, kg]."""
@@ -115,7 +115,7 @@ class Mechanics:
             if joint.child in frames
         }
         moving: dict[str, list[Joint]] = {self.root: []}
-        found = []
+        jacobians = []
         for name in frames:
             if name != self.root:
                 joint = next(j for j in self.robot.joints if j.child == name)
@@ -134,8 +134,8 @@ class Mechanics:
                     angular[:, column] = axis
                 else:
                     linear[:, column] = axis
-            found.append((mass, tensor, linear, angular))
-        return found
+            jacobians.append((mass, tensor, linear, angular))
+        return jacobians
 
 
 def get_origin_matrix(origin: Origin | None) -> Array:

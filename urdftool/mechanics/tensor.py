@@ -40,7 +40,11 @@ WRITTEN_ROUNDING = 0.01
 Chosen, no source."""
 
 _CLOSE = 1e-6
+"""Distance from a bound, relative to the largest moment, where it is computed exactly. Chosen, no
+source."""
+
 _SMALL = 1e-60
+"""Moments below this, and above its inverse, are scaled: their cubes would overflow."""
 
 
 class Consistency(NamedTuple):

@@ -20,7 +20,7 @@ from ..model.pose import Rotation, transpose
 from .tensor import COMPONENTS, SymmetricTensor, measure_consistency, rotate_tensor, shift_to_com
 
 DIAGONAL = (0, 3, 5)
-"""Positions of the three moments among the six numbers."""
+"""Positions of the three moments among the six numbers, by definition."""
 
 POWERS = tuple(power for power in range(-9, 10) if power)
 """Powers of ten by which all six numbers may be off: -9 is g·mm², -6 kg·mm², -3 g·m², and
@@ -42,7 +42,7 @@ SPREAD = 1.1
 """Factor by which a second moment may exceed the bound of the bounding box."""
 
 BOX_MARGIN = 0.02
-"""Margin of the bounding box on every side, relative to its diagonal."""
+"""Margin of the bounding box on every side, relative to its diagonal. Chosen, no source."""
 
 ROUNDING = 0.01
 """Relative violation of the triangle inequality that rounding of written numbers explains."""
@@ -52,9 +52,11 @@ SIMILAR = 2.5
 box."""
 
 FILLED = (0.3, 3.0)
-"""Range of the moments of real bodies, relative to those of a solid box of their size."""
+"""Range of the moments of real bodies, relative to those of a solid box of their size. Chosen, no
+source."""
 
 _LARGEST = 1e60
+"""Moments above this, and below its inverse, are not examined: products would overflow."""
 
 _UNITS = {-9: "g·mm²", -7: "g·cm²", -6: "kg·mm²", -4: "kg·cm²", -3: "g·m²"}
 
@@ -73,6 +75,7 @@ _REORDERED = tuple(
 """Permutations: the numbers intended in one of the usual orders and written in another."""
 
 _ENTRY = ((0, 1, 2), (1, 3, 4), (2, 4, 5))
+"""Positions of the entries of a matrix among the six numbers, by definition."""
 
 _EXCHANGED = tuple(
     (

@@ -60,18 +60,18 @@ def add_appearance(robot: Robot) -> None:
 def _read_blocks(
     elements: Iterable[Element], rejected: list[Rejected], part: tuple[str, str]
 ) -> Settings:
-    found: Settings = {}
+    settings: Settings = {}
     materials = [element for element in elements if element.tag == "material"]
     if materials and materials[-1].children:
         last = materials[-1]
         rows = [row._replace(path=row.path.removeprefix("material/")) for row in _OF_MATERIALS]
         replaced = (*rows, *(row for row in APPEARANCE if row.name == "transparency"))
-        found = {row.name: Value(last, row.default) for row in replaced}
-        found |= _add_diffuse(read_sdf_settings(last, rows, rejected, part))
+        settings = {row.name: Value(last, row.default) for row in replaced}
+        settings |= _add_diffuse(read_sdf_settings(last, rows, rejected, part))
     for element in elements:
         if element.tag == "visual":
-            found |= read_sdf_settings(element, APPEARANCE, rejected, part)
-    return found
+            settings |= read_sdf_settings(element, APPEARANCE, rejected, part)
+    return settings
 
 
 def _find_block_script(elements: Sequence[Element]) -> str:
@@ -136,12 +136,14 @@ def convert_material(own: Material | None) -> Settings:
     if own is None or (own.color is None and own.texture is None):
         return {}
     rgba = own.color or (1.0, 1.0, 1.0, 1.0)
-    found: dict[str, Value] = {tag: Value(own.provenance, rgba) for tag in ("ambient", "diffuse")}
+    settings: dict[str, Value] = {
+        tag: Value(own.provenance, rgba) for tag in ("ambient", "diffuse")
+    }
     if rgba[3] < 1.0:
-        found["transparency"] = Value(own.provenance, _get_complement(rgba[3]))
+        settings["transparency"] = Value(own.provenance, _get_complement(rgba[3]))
     if own.texture:
-        found["metalness"] = Value(own.provenance, 0.0)
-    return found
+        settings["metalness"] = Value(own.provenance, 0.0)
+    return settings
 
 
 def convert_color(at: Element | Visual, color: Color) -> Settings:

@@ -48,7 +48,7 @@ def get_plugin_drives(robot: Robot) -> dict[str, str]:
     Returns:
         By joint name: ``velocity`` for a wheel, ``position`` for a joint with limits, which steers.
     """
-    found = {}
+    plugin_drives = {}
     for plugin in drive_plugins(robot):
         for element in plugin.element.walk():
             for name in re.split(r"[,\s]+", element.text.strip()):
@@ -56,8 +56,8 @@ def get_plugin_drives(robot: Robot) -> dict[str, str]:
                 if joint is not None and joint.type in MOVABLE:
                     lower, upper = get_limits(joint)
                     turns = joint.type == "continuous" or not -7.0 < lower < upper < 7.0
-                    found[name] = "velocity" if turns else "position"
-    return found
+                    plugin_drives[name] = "velocity" if turns else "position"
+    return plugin_drives
 
 
 def get_commanded_joints(robot: Robot) -> set[str]:

@@ -30,6 +30,8 @@ def _make_transparent_color(rgb: Rgb, alpha: float = 0.5) -> Color:
 
 
 _BLACK, _WHITE, _HALF = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.5, 0.5, 0.5)
+"""Colors that several materials of Gazebo share."""
+
 _RED, _GREEN, _BLUE = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 _YELLOW, _PURPLE, _TURQUOISE = (1.0, 1.0, 0.0), (1.0, 0.0, 1.0), (0.0, 1.0, 1.0)
 _WOODEN = Color(_WHITE, _WHITE, (0.2, 0.2, 0.2))

@@ -42,7 +42,9 @@ def find_rejecting_readers(ending: str, collides: bool) -> frozenset[str]:
     """
     if is_odd(ending):
         return frozenset()
-    found = {"pybullet"} if ending not in READ_BY["pybullet"] else set()
+    rejecting_readers = {"pybullet"} if ending not in READ_BY["pybullet"] else set()
     if collides:
-        found |= {reader for reader, known in COLLISIONS_READ_BY.items() if ending not in known}
-    return frozenset(found)
+        rejecting_readers |= {
+            reader for reader, known in COLLISIONS_READ_BY.items() if ending not in known
+        }
+    return frozenset(rejecting_readers)

@@ -136,21 +136,21 @@ def describe_shape(geometry: Geometry | None) -> dict[str, Any]:
 
 def collect_content(element: Element) -> dict[str, Any]:
     """Return the attributes and texts in an element by path: numbers as tuples, others as text."""
-    found: dict[str, Any] = {}
+    content: dict[str, Any] = {}
     todo = deque([(element, "")])
     while todo:
         one, path = todo.popleft()
         for name, text in one.attributes.items():
-            found[f"{path}@{name}"] = _parse_numbers(text)
+            content[f"{path}@{name}"] = _parse_numbers(text)
         if path and one.text.strip():
-            found[path] = _parse_numbers(one.text)
+            content[path] = _parse_numbers(one.text)
         counts: Counter[str] = Counter()
         for child in one.children:
             counts[child.tag] += 1
             count = counts[child.tag]
             step = child.tag if count == 1 else f"{child.tag}({count})"
             todo.append((child, f"{path}/{step}" if path else step))
-    return found
+    return content
 
 
 def _parse_numbers(text: str) -> tuple[float, ...] | str:

@@ -44,17 +44,17 @@ def list_initial_positions(robot: Robot) -> dict[str, float]:
 
     They are ``initial_value`` of the position interface, else the parameter ``initial_position``.
     """
-    found: dict[str, float] = {}
+    initial_positions: dict[str, float] = {}
     for block in robot.ros2_controls:
         for component in block.joints:
             for interface in component.state_interfaces:
                 value = number(interface.params.get("initial_value"))
                 if interface.name == "position" and value is not None:
-                    found[component.name] = value
+                    initial_positions[component.name] = value
             value = number(component.params.get("initial_position"))
             if value is not None:
-                found.setdefault(component.name, value)
-    return found
+                initial_positions.setdefault(component.name, value)
+    return initial_positions
 
 
 def compute_allowed_range(robot: Robot, name: str) -> tuple[float, float]:

@@ -20,7 +20,7 @@ from .findings_words import call_lines, format_member_lines, format_message, for
 _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "blue"}
 _MOST_LINES = 3  # lines of the source that are shown for a finding
 _MOST_CALLS = 4  # calls of macros that are shown
-_LONGEST_LINE = 160  # characters of a line that is shown
+_LONGEST_LINE = 160  # characters of a line that is shown; chosen
 _LONGEST_MESSAGE = 300  # characters of a message whose names are all shown; chosen, no source
 _WIDEST = 200  # characters of a line of ``full``; chosen, no source
 _MOST_NAMES = 4  # names that a longer message shows; chosen, no source

@@ -29,7 +29,7 @@ from .rule_pages import format_page
 
 _PAGE = Path(__file__).with_name("findings_page.html")
 _MOST_LINES = 6  # lines of the source that are shown for a finding
-_LONGEST_LINE = 400  # characters of a line that is shown
+_LONGEST_LINE = 400  # characters of a line that is shown; chosen
 
 
 def to_html(outcome: Outcome, pictures: Mapping[str, bytes | str] = MappingProxyType({})) -> str:

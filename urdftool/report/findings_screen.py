@@ -20,7 +20,7 @@ MANY = 8
 """Findings above which a terminal shows one line for each, and the summary lists rules. Chosen, no
 source."""
 
-_RULES = 3  # rules that the summary names
+_RULES = 3  # rules that the summary names; chosen
 
 
 def sort_by_severity(findings: Iterable[Finding]) -> list[Finding]:

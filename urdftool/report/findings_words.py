@@ -15,7 +15,7 @@ from ..source.location import Call
 if TYPE_CHECKING:
     from ..lint.outcome import Outcome
 
-_LONGEST_CALL = 90  # characters of a call of a macro
+_LONGEST_CALL = 90  # characters of a call of a macro; chosen
 
 
 def format_message(finding: Finding) -> str:

@@ -17,7 +17,7 @@ _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "bl
 _COLORS_OF_KINDS = {"joint": "cyan", "missing": "red"}
 _OTHER = "magenta"
 """Color of nodes that are neither links nor joints."""
-_DEEPEST = 40  # levels of the tree that are indented
+_DEEPEST = 40  # levels of the tree that are indented; chosen
 
 
 @dataclass

@@ -34,7 +34,7 @@ HEADS = (
 )
 UNITS = ("", "kg", "kg", "", "deg", "mm", "kg/m³", "")
 _COLORS = {"wrong": "red", "doubtful": "yellow", "incomplete": "yellow", "missing": "yellow"}
-_LONGEST_NAME = 40  # characters of a link's name in a table
+_LONGEST_NAME = 40  # characters of a link's name in a table; chosen
 
 
 def format_table(reviews: Sequence[LinkReview], *, colors: bool = False) -> str:

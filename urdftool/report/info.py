@@ -16,7 +16,7 @@ from .counted import format_count
 from .findings import Painter
 from .json_text import format_json
 
-_MOST = 6  # names in one line
+_MOST = 6  # names in one line; chosen
 
 
 def format_table(robot: Robot, counts: Counts, measured: Measured, *, colors: bool = False) -> str:

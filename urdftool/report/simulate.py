@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ..simulation.fault import Fault
     from ..simulation.verdict import Verdict
 
-_MOST = 6  # names in one line
+_MOST = 6  # names in one line; chosen
 
 _LABELS = {
     Severity.ERROR: ("error", "red"),

@@ -16,10 +16,12 @@ LETTERS = "ABCDEFGH"
 """Letters of the robots."""
 
 _SHOWN = 60
+"""Groups of differences that are listed. Chosen, no source."""
+
 _ALIKE = 4
 """Number of equal differences of several parts that are printed as one; chosen, no source."""
 _NAMED = 3
-"""Number of their names that are printed."""
+"""Number of their names that are printed. Chosen, no source."""
 
 
 def to_json(paths: Sequence[str], agreement: Agreement) -> str:

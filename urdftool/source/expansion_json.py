@@ -268,7 +268,7 @@ class Reader:
 
     def _read_nodes(self, data: bytes) -> list[ExpandedNode]:
         """Return nodes whose values have the expected types, below one root element."""
-        found: list[ExpandedNode] = []
+        nodes: list[ExpandedNode] = []
         files, stacks = self._files, self._stacks
         sizes = [len(file.data) for file in files]
         known, self.pieces = self.pieces, {}
@@ -285,21 +285,21 @@ class Reader:
             for file, most in piece.most_starts.items():
                 if most > sizes[file]:
                     raise ValueError(f"byte {most} of a file of {sizes[file]}")
-            begin = len(found)
-            found += [
+            begin = len(nodes)
+            nodes += [
                 node
                 if len(node) != _PARTS
                 else (*node[:3], files[node[3]], node[4], stacks[node[5]])
                 for node in piece.nodes
             ]
             if not roots or text not in known:
-                self.new += found[begin:]
+                self.new += nodes[begin:]
             reached, roots = piece.reached, roots + piece.roots
             if piece.roots and text not in known:
                 known = {}  # what it declares decides which names are right below it
         if roots != 1:
             raise ValueError(f"{roots} root elements")
-        return found
+        return nodes
 
 
 class Piece:

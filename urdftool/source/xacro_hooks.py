@@ -34,7 +34,7 @@ MAX_CALLS = 400  # nested calls of macros; chosen, no source
 MAX_ELEMENTS = 200_000  # elements of an expansion; chosen, no source
 MAX_INCLUDES = 100  # nested includes; chosen, no source
 _RECURSION_LIMIT = 6000  # frames of Python; chosen, no source: 15 for each of MAX_CALLS
-_SHOWN = 100  # characters of a text in a message
+_SHOWN = 100  # characters of a text in a message; chosen
 
 
 class Run:
@@ -432,6 +432,7 @@ class _MissingFileError(OSError):
 
 
 _TEXT, _EXPR, _EXTENSION = 0, 1, 2
+"""Kinds of pieces of a text. Chosen, no source."""
 
 
 _LEXER = [re.compile(pattern.pattern.removeprefix("^")) for pattern in xacro.LEXER.res]

@@ -35,7 +35,7 @@ _TAGS = (
     *("property", "unless"),
 )
 """Tags of xacro itself; all others are macro calls."""
-_SHOWN = 200  # characters of an expression in a message
+_SHOWN = 200  # characters of an expression in a message; chosen
 _ARGUMENTS = {"env": "NAME", "optenv": "NAME DEFAULT", "find": "PACKAGE", "arg": "NAME"}
 
 

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from .location import Call, Place, SourceFile
 
 ELEMENT, TEXT, CDATA, INSTRUCTION, COMMENT, DOCUMENT = 1, 3, 4, 7, 8, 9
+"""Types of nodes, by the specification of the DOM."""
 
 
 class Node:

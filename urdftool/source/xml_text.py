@@ -18,7 +18,7 @@ from .xacro_tree import CDATA, COMMENT, INSTRUCTION, TEXT
 _FORBIDDEN = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _NOT_IN_NAME = re.compile(r"[\s<>/=&'\"?!]")
 _ENDS = {COMMENT: "--", CDATA: "]]>", INSTRUCTION: "?>"}
-_LONGEST = 60  # characters of a name in a message
+_LONGEST = 60  # characters of a name in a message; chosen
 
 
 def check_writable(nodes: Sequence[ExpandedNode]) -> None:

@@ -206,16 +206,16 @@ def list_scalars(file: SourceFile) -> list[Node]:
     if len(file.data) > MOST_BYTES:
         raise ConfigError(f"has more than {MOST_BYTES} bytes", path=file.path)
     reader = _Reader(file, file.data.decode("utf-8", "replace"))
-    found: list[Node] = []
+    scalars: list[Node] = []
     try:
         is_key = False
         for token in yaml.scan(reader.text, Loader=yaml.SafeLoader):
             if isinstance(token, yaml.ScalarToken):
-                found.append(reader.build_scalar(token, ":" if is_key else ""))
+                scalars.append(reader.build_scalar(token, ":" if is_key else ""))
             is_key = isinstance(token, yaml.KeyToken)
     except yaml.YAMLError as error:
         raise ConfigError(f"is not valid YAML: {error}", path=file.path) from None
-    return found
+    return scalars
 
 
 def _is_empty(root: Any) -> bool:

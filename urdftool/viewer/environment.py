@@ -17,14 +17,15 @@ VIEW = math.radians(40.0)
 """Vertical field of view [rad]."""
 
 SHEET = 0.55
-"""Part of a phone's height, from below, that the controls cover."""
+"""Part of a phone's height, from below, that the controls cover. Chosen, no source."""
 
 AZIMUTH, ELEVATION = math.radians(-40.0), math.radians(22.0)
 
 CELLS = 6
-"""Number of ground cells from the center to the edge."""
+"""Number of ground cells from the center to the edge. Chosen, no source."""
 
 LINE, MIDDLE = (205, 209, 214), (150, 155, 162)
+"""Colors of the lines on the ground, and of those through its center. Chosen, no source."""
 
 
 def add_lights(scene: viser.SceneApi) -> None:

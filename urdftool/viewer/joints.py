@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 WHERE = ("zero", "lower", "upper", "random")
 _LONGEST = 40
+"""Characters of the name of a joint. Chosen, no source."""
 
 
 class Joints:

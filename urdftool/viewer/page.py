@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from ..drawing.shapes import Shapes
 
 PAUSE = 0.2
-"""Time between two checks of the files [s]."""
+"""Time between two checks of the files [s]. Chosen, no source."""
 
 PATIENCE = 2.0
 """Time after which a broken description is read again [s]; a missing file may exist by then."""

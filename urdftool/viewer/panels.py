@@ -13,10 +13,10 @@ from .marks import find_highest_severity, format_counts
 from .properties import escape_html, format_table, link_rows, list_joint_rows, shorten_name
 
 MOST = 300
-"""Maximum number of listed findings."""
+"""Maximum number of listed findings. Chosen, no source."""
 
 SAID = 12
-"""Maximum number of notices."""
+"""Maximum number of notices. Chosen, no source."""
 
 
 def wrap_html(inner: str) -> str:

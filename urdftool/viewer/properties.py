@@ -31,7 +31,8 @@ from .sliders import format_value
 _MISSING = "not specified"
 
 LONGEST = 60
-"""Maximum length of a displayed name; a longer one is shortened in its middle."""
+"""Maximum length of a displayed name; a longer one is shortened in its middle. Chosen, no
+source."""
 
 Row = tuple[str, str]
 

@@ -116,7 +116,10 @@ def _find_distinct(
 
 
 _FLOAT, _UINT32 = 5126, 5125
+"""Types of components, as glTF numbers them."""
+
 _ARRAY, _ELEMENTS = 34962, 34963
+"""Targets of buffers, as glTF numbers them."""
 
 
 def encode_glb(

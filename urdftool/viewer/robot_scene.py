@@ -27,13 +27,17 @@ KINDS = ("visual", "collision", "frames", "names", "axes", "com", "inertia", "er
 """Parts of a robot's display that can be shown and hidden."""
 
 CLEAR = 0.35
-"""Opacity of visual geometry in see-through mode."""
+"""Opacity of visual geometry in see-through mode. Chosen, no source."""
 
 COLLISION = (240, 140, 40)
+"""Color of collision geometry. Chosen, no source."""
+
 BOXES = {True: (60, 120, 230), False: (220, 30, 30)}
 """Color of the inertia box by whether the inertia is physically consistent."""
 
 SELECTED = (255, 196, 0)
+"""Color of the selected link. Chosen, no source."""
+
 COLORS = {Severity.ERROR: (220, 30, 30), Severity.WARNING: (240, 130, 0)}
 EDGES = [(0, 1), (0, 2), (0, 4), (3, 1), (3, 2), (3, 7), (5, 1), (5, 4), (5, 7), (6, 2), (6, 4),
          (6, 7)]  # fmt: skip

@@ -38,9 +38,9 @@ PORT = 8733
 """Default port: "URDF" on a phone keypad."""
 
 TRIED = 20
-"""Number of ports tried from there."""
+"""Number of ports tried from there. Chosen, no source."""
 
-_SECONDS = 10.0  # timeout of the first request to the server
+_SECONDS = 10.0  # timeout of the first request to the server; chosen
 
 _STYLE = Path(__file__).with_name("page.css")
 _ORIGINAL_TITLE = b"<title>Viser</title>"

@@ -20,6 +20,8 @@ from ...errors import MeshError
 from ...geometry.stl_header import is_lfs_pointer, read_stl_header
 
 _HEAD = 65536
+"""Bytes that are read to tell the kind of a file. Chosen, no source."""
+
 _NUMBER = rb"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _POINT = re.compile(rb"(?m)^[ \t]*v(?:[ \t]+" + _NUMBER + rb"){3}")
 _FACE = re.compile(rb"(?m)^[ \t]*f(?:[ \t]+-?\d+(?:/-?\d*){0,2}(?:[ \t]*\\\r?\n)?){3}")

@@ -6,10 +6,13 @@ export of that URDF has the same actuators as the MJCF.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from pathlib import Path
+
 from ...model.elements import Robot
 from ...model.extensions import Interface
 from ...model.read import parse_numbers
-from .actuator_config import JointSettings
+from .actuator_config import JointSettings, read_actuator_config
 
 
 def list_described_gains(robot: Robot) -> dict[str, JointSettings]:
@@ -22,6 +25,26 @@ def list_described_gains(robot: Robot) -> dict[str, JointSettings]:
                 if settings is not None:
                     found[part.name] = settings
     return found
+
+
+def choose_joint_settings(
+    robot: Robot, names: Iterable[str], config: Path | None
+) -> dict[str, JointSettings]:
+    """Choose the settings of joints, by name: those of the user, then those of the description.
+
+    Args:
+        robot: The robot.
+        names: Names of the joints that move.
+        config: An actuator file, or None.
+
+    Raises:
+        ConfigError: The file cannot be read, or has settings for a joint that does not move.
+    """
+    settings = dict.fromkeys(names, JointSettings())
+    if config is not None:
+        settings = read_actuator_config(config).match_joints(settings)
+    described = list_described_gains(robot)
+    return {name: own.override(described.get(name, own)) for name, own in settings.items()}
 
 
 def _read_gains(interface: Interface) -> JointSettings | None:

@@ -24,6 +24,7 @@ from ..written import Written
 
 _MARK = re.compile(rb"(?:<!--|#) Exported by urdftool [^;\n]*; ([0-9a-f]{12})(?: -->)?\n?")
 _HEAD = 4096
+"""Bytes in which the mark of an export must begin. Chosen, no source."""
 
 
 def mark(xml: bytes, source: str) -> bytes:

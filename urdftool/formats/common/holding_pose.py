@@ -25,7 +25,7 @@ RESERVE = 0.8
 FARTHEST = 0.5
 """Largest change of a position [rad]; chosen, no source."""
 
-_STEPS = 25  # in each direction
+_STEPS = 25  # in each direction; chosen
 
 
 def choose_holding_positions(

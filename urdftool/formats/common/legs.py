@@ -27,7 +27,8 @@ STRETCHED = 0.9
 example-robot-data stood in a trial."""
 
 MARGIN = 0.06
-"""Distance from the limits of hip and knee relative to their range; as in the trial above."""
+"""Distance from the limits of hip and knee relative to their range; measured in the trial
+above."""
 
 PARALLEL = 0.95
 """Minimum cosine of the angle between axes of hip and knee; chosen, no source."""
@@ -42,7 +43,7 @@ no source."""
 TURN = 2.0
 """Maximum angle of a hip [rad], which is more for a robot that lies; chosen, no source."""
 
-_SAMPLES = 400  # angles of a knee
+_SAMPLES = 400  # angles of a knee; chosen
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,8 @@ POSITION_GAIN = {"hinge": 40.0, "slide": 400.0}
 the same trial: 10 and 100 let 10 of 31 robots with a free base tip over."""
 
 VELOCITY_GAIN = 10.0
-"""Ratio of velocity gain to effort/velocity: full effort at a tenth of the velocity limit."""
+"""Ratio of velocity gain to effort/velocity: full effort at a tenth of the velocity limit. Chosen,
+no source."""
 
 FREQUENCY = 20.0
 """Angular frequency [rad/s] of a servo without an effort limit; chosen, no source."""

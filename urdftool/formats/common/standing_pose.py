@@ -44,6 +44,7 @@ NARROW = 2.0
 next ones are at 2.8° and stand."""
 
 _CENTERED, _ROUNDS = 1e-3, 12
+"""Distance [m] that ends the search, and its largest number of steps. Chosen, no source."""
 
 
 def compute_standing_positions(

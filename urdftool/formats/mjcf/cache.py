@@ -15,7 +15,10 @@ from ...storage import DiskCache, cache_folder, cache_key, join_parts, split_par
 from .convert import Converted, Piece, call_conversion
 
 _VERSION = 9
+"""Number in the keys of the cache; a change of what is stored requires another. By definition."""
+
 _BIG = 400_000
+"""Bytes of meshes above which several processes convert them. Chosen, no source."""
 
 
 Job = tuple[Path, bool, GltfUp]

@@ -24,13 +24,15 @@ from .structure import Structure
 
 ARMATURE = 4e-4
 """Armature [kg·m²] relative to the effort limit [N·m] of a hinge: between 0.01 at 24 N·m (Go2) and
-0.1 at 200 to 300 N·m (H1) in the models of Unitree."""
+0.1 at 200 to 300 N·m (H1) measured in the models of Unitree."""
 
 FRICTION = 0.005
-"""Friction loss relative to the effort limit: between 0.2 of 24 N·m (Go2) and 0 (H1), as above."""
+"""Friction loss relative to the effort limit: between 0.2 of 24 N·m (Go2) and 0 (H1),
+measured as above."""
 
 CONDIM = 6.0
-"""Dimension of the contacts of feet: with torsional and rolling friction, as in Unitree's Go2."""
+"""Dimension of the contacts of feet: with torsional and rolling friction, measured in
+Unitree's Go2."""
 
 JOINT_KINDS = (("jointpos", "_position"), ("jointvel", "_velocity"))
 """Sensors of a joint that control policies read, with the suffixes of their names."""

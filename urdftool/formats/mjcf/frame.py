@@ -17,6 +17,7 @@ from ...model.pose import (
 from ..common.numbers import format_numbers_text
 
 _SAME = 1e-15
+"""Parts of a quaternion below this, relative to the largest, are rounding."""
 
 
 def set_origin(element: etree._Element, origin: Origin | None) -> None:

@@ -33,7 +33,7 @@ MOST_GEOMS = 2000
 geoms at one place need memory for the square of their number. Robots have up to some hundred."""
 
 SHOWN = 8
-"""Maximum number of pairs that the warning lists."""
+"""Maximum number of pairs that the warning lists. Chosen, no source."""
 
 
 @dataclass(frozen=True)

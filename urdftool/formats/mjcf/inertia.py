@@ -25,7 +25,10 @@ from ...model.elements import Vector
 Array = npt.NDArray[np.float64]
 
 _SAFE = 1e-12
+"""Excess and moments, relative to the largest, that MuJoCo reads without an error."""
+
 _LIFT = 2e-12
+"""What a moment at the bound is raised by, relative to the largest, against rounding."""
 
 
 def is_possible(tensor: SymmetricTensor) -> bool:

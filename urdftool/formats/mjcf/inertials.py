@@ -38,13 +38,13 @@ TINY = 1e-12
 """Mass [kg] and moment [kg·m²] of a moving body without mass; MuJoCo requires more than 1e-15."""
 
 LEAST = 2e-15
-"""The same for bodies where armature keeps the mass matrix regular."""
+"""The same for bodies where armature keeps the mass matrix regular. Chosen, no source."""
 
 ENOUGH = 1e-14
 """Mass [kg] or moment [kg·m²] that MuJoCo accepts as positive, with a margin."""
 
 NEGLIGIBLE = 1e-8
-"""Fraction of a joint's inertia that is negligible."""
+"""Fraction of a joint's inertia that is negligible. Chosen, no source."""
 
 LEAF_ARMATURE = 1e-4
 """Armature [kg·m² or kg] of the joint of a massless leaf link, so that it can be simulated."""

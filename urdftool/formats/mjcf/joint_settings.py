@@ -8,8 +8,8 @@ from dataclasses import replace
 from ...diagnostic import Severity
 from ...model.elements import Dynamics, Joint, Limit, Robot
 from ...model.settings import RESISTANCE
-from ..common.actuator_config import JointSettings, read_actuator_config
-from ..common.described_gains import list_described_gains
+from ..common import described_gains
+from ..common.actuator_config import JointSettings
 from ..written import Written
 from .inertials import LEAF_ARMATURE, get_massless_leaves
 from .joint import get_effort
@@ -31,17 +31,11 @@ def choose_joint_settings(structure: Structure, options: Options) -> dict[str, J
         for joint in structure.moving
         if structure.get_kind(joint) in ("hinge", "slide") and get_locked_at(joint) is None
     ]
-    found = dict.fromkeys(names, JointSettings())
-    if options.actuator_config is not None:
-        found = read_actuator_config(options.actuator_config).match_joints(names)
-    described = list_described_gains(structure.robot)
-    for name in found.keys() & described.keys():
-        found[name] = found[name].override(described[name])
-    if options.armature is not None:
-        for name, settings in found.items():
-            if settings.armature is None:
-                found[name] = replace(settings, armature=options.armature)
-    return found
+    usual = JointSettings(armature=options.armature)
+    settings = described_gains.choose_joint_settings(
+        structure.robot, names, options.actuator_config
+    )
+    return {name: own.override(usual) for name, own in settings.items()}
 
 
 def set_joint_values(

@@ -267,7 +267,7 @@ _TEXTS = {
     "keyframe": ("only joint positions of keyframes are read", Severity.INFO),
 }
 _LAST_GROUP = 3
-"""Group of collisions by convention; those above it are for the user."""
+"""Group of collisions by convention; those above it are for the user. Chosen, no source."""
 
 _SHOWN_ONLY = frozenset(("springref", "group", "user", "material", "rgba", "width", "objtype"))
 

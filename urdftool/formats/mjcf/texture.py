@@ -20,12 +20,13 @@ from ...storage import DiskCache, cache_folder, cache_key
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 COMPRESSION = 4
-"""zlib level: 7 % larger files than Pillow's 6 on 19 photographs of robots, in 70 % of the time."""
+"""zlib level: 7 % larger files than Pillow's 6 on 19 photographs of robots, in 70 % of the time,
+measured."""
 
 _VERSION = 1
 
 _COLOR_TYPES = (0, 2, 3, 4, 6)
-"""Gray, RGB, palette, gray with alpha, RGBA."""
+"""Gray, RGB, palette, gray with alpha, RGBA: by the specification of PNG."""
 
 
 def get_png(image: Path | bytes) -> bytes | None:

@@ -12,6 +12,7 @@ from ...model.settings import RESISTANCE
 from .compiled import Compiled
 
 EXACT = 1e-9
+"""Tolerance of values that are copied. Chosen, no source."""
 
 STIFF = (0.005, 1.0, 0.95, 0.99, 0.001, 0.5, 2.0)
 """``solref`` and ``solimp`` of every equality, as in MuJoCo Menagerie for coupled fingers."""

@@ -12,6 +12,7 @@ from ...mechanics.reference import Array
 from .compiled import Compiled
 
 FRAME = 1e-9
+"""Tolerance of poses [m, rad]. Chosen, no source."""
 
 SAME_TURN = 2e-6
 """Largest turn [rad] that MuJoCo's compiler rounds away: it takes the body's rotation for that of a

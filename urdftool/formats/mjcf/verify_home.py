@@ -13,10 +13,11 @@ from ...model.world import WORLD
 from .compiled import Compiled
 
 EXACT = 1e-9
+"""Tolerance of values that are copied. Chosen, no source."""
+
 GROUND = 1e-4
-"""Tolerance of the height of a free robot's lowest point, relative to its size;
-the bounding box of a mesh with many points is not exact.
-"""
+"""Tolerance of the height of a free robot's lowest point, relative to its size; the bounding box of
+a mesh with many points is not exact. Chosen, no source."""
 
 
 _OF_JOINTS = (0, 1)

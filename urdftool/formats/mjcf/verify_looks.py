@@ -34,6 +34,7 @@ SINGLE = 1e-6
 """Tolerance of colors, which MuJoCo stores in single precision."""
 
 VISUAL_GROUP = 2
+"""Group of geoms that are only seen, by convention of MuJoCo Menagerie."""
 
 
 @dataclass(frozen=True)

@@ -23,10 +23,10 @@ TIMESTEPS = (0.002, 0.005)
 """Physics time steps [s] at which a model must run: MuJoCo's default, and a usual longer one."""
 
 SECONDS = 2.0
-"""Simulated time [s]."""
+"""Simulated time [s]. Chosen, no source."""
 
 BEYOND = 0.01
-"""Tolerance of joint limits [rad or m]."""
+"""Tolerance of joint limits [rad or m]. Chosen, no source."""
 
 DRIFT = 0.02
 """Maximum motion of a free base from the start [m]; chosen, no source."""
@@ -360,7 +360,7 @@ def list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
         yield float((points @ rotation.T + place)[:, 2].min())
 
 
-_SPHERE, _CAPSULE, _ELLIPSOID, _CYLINDER = 2, 3, 4, 5  # of mjtGeom
+_SPHERE, _CAPSULE, _ELLIPSOID, _CYLINDER = 2, 3, 4, 5  # mjtGeom of MuJoCo
 
 _REACHES: dict[int, Callable[[Array, Array], float]] = {
     _SPHERE: lambda _, size: float(size[0]),

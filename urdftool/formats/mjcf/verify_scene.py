@@ -15,7 +15,7 @@ from .verify_fuse import compare_fields
 from .verify_home import get_lowest_point
 
 FLOOR = 1e-4
-"""Tolerance of the floor's height, relative to the size of the robot."""
+"""Tolerance of the floor's height, relative to the size of the robot. Chosen, no source."""
 
 ROUNDED = 1.01e-4
 """Rounding of the floor's height [m]."""

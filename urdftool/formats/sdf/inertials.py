@@ -26,10 +26,14 @@ from .translation import Translation
 from .xml import Node, add
 
 _MARGIN = 1e-12
+"""Excess of moments, relative to the largest, that remains valid after rounding."""
+
 _EPSILON = 2e-15
+"""Excess of moments, relative to the largest, that is rounding."""
 
 WEIGHTLESS = 1e-12
-"""Mass [kg] of a moving link without mass; its radius of gyration is one millimeter."""
+"""Mass [kg] of a moving link without mass; its radius of gyration is one millimeter. Chosen, no
+source."""
 
 
 def add_inertial(node: Node, t: Translation, link: Link) -> None:

@@ -28,6 +28,7 @@ UNLIMITED = 1e16
 """Limit of a joint that has none, before SDF 1.10."""
 
 _NOISE = 1e-15
+"""Parts of an axis this close to a whole number are rounding."""
 
 _TURNING = ("revolute", "continuous", "ball", "universal", "revolute2", "screw", "gearbox")
 _TYPES = (*_TURNING, "prismatic", "fixed")

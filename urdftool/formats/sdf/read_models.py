@@ -20,8 +20,14 @@ from .read_scope import MODEL, SELF_COLLIDE, Item, Scope, read_own_pose
 from .read_values import Version, read_flag, read_text, read_version
 
 NEWEST: Version = (1, 12)
+"""Newest version of SDF that is read."""
+
 OLDEST: Version = (1, 4)
+"""Oldest version of SDF that is read."""
+
 MAX_DEPTH = 30
+"""Largest depth of nested models, which include each other in a cycle. Chosen, no source."""
+
 MAX_ELEMENTS = 200_000
 """Maximum number of elements with those of included files, which count each time. Chosen."""
 MAX_INCLUDES = 2000

@@ -12,8 +12,8 @@ from ...model.drives import list_servo_joints
 from ...model.elements import Joint
 from ...model.mechanism import JointActuator
 from ...model.settings import RESISTANCE, RESISTANCE_OF_URDF
-from ..common.actuator_config import JointSettings, read_actuator_config
-from ..common.described_gains import list_described_gains
+from ..common.actuator_config import JointSettings
+from ..common.described_gains import choose_joint_settings
 from ..common.missing_bounds import explain_negative_effort
 from ..common.servo_gains import drop_unlimited
 from ..written import Written
@@ -60,13 +60,7 @@ def read_joint_settings(bodies: Bodies, config: Path | None) -> dict[str, JointS
         ConfigError: The file is not valid, or has settings for a joint that does not move.
     """
     names = [joint.name for joint in list_single_joints(bodies)]
-    found = dict.fromkeys(names, JointSettings())
-    if config is not None:
-        found = read_actuator_config(config).match_joints(names)
-    described = list_described_gains(bodies.robot)
-    for name in found.keys() & described.keys():
-        found[name] = found[name].override(described[name])
-    return found
+    return choose_joint_settings(bodies.robot, names, config)
 
 
 def choose_joint_values(

@@ -17,6 +17,8 @@ from ..write import write
 _TOO_NEW = re.compile(r"Unable to convert from SDF version \S+ to (\S+)")
 _TOOLS = ("gz", "ign")
 _SECONDS = 60
+"""Time that a program may take. Chosen, no source."""
+
 _IGNORED = ("Library error", "backtrace")
 
 
