@@ -66,7 +66,7 @@ CORE_TESTS := tests/commands tests/graph tests/info tests/test_extras.py tests/r
 test-core:
 	rm -rf $(CORE)
 	$(PYTHON) -m venv $(CORE)
-	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: .
+	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --compile --only-binary :all: .
 	$(CORE)/bin/python -m tests.installed_size
 	$(CORE)/bin/python -m pip install --quiet --disable-pip-version-check --only-binary :all: '.[test-core]'
 	$(CORE)/bin/python -m pytest -q -m "not slow" $(PARALLEL) $(CORE_TESTS)

@@ -5,16 +5,20 @@ import os
 import re
 import shutil
 import signal
+import subprocess
 import sys
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import HealthCheck, settings
 
-from urdftool import cli, extras
+from tests.forked import ForkedPython
+from urdftool import cli, extras, isolated
 from urdftool.commands import progress
+from urdftool.parallel import can_fork
 from urdftool.projects import TRUST
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -152,6 +156,21 @@ def _forks_have_mujoco():
     """Import MuJoCo once, and not in each of the forks that read an MJCF."""
     if extras.is_installed("mujoco"):
         import mujoco  # noqa: F401
+
+
+@pytest.fixture(autouse=True)
+def _engines_start_as_forks(monkeypatch):
+    """Fork for MuJoCo, which is here already; the tests of the documentation start it as users do.
+
+    Half of the time of a short simulation is that of the start of its engine.
+    """
+
+    def start(words, **how):
+        forks = "mujoco" in words[3].split(",") and "mujoco" in sys.modules and can_fork()
+        return (ForkedPython if forks else subprocess.Popen)(words, **how)
+
+    known = {name: getattr(subprocess, name) for name in ("PIPE", "TimeoutExpired")}
+    monkeypatch.setattr(isolated, "subprocess", SimpleNamespace(Popen=start, **known))
 
 
 @pytest.fixture(autouse=True)
