@@ -6,9 +6,10 @@ import subprocess
 import sys
 
 import pytest
+import yaml
 
 from tests.conftest import FIXTURES, ROOT
-from urdftool import extras
+from urdftool import __version__, extras
 from urdftool.commands.version import CORE
 
 if sys.version_info >= (3, 11):
@@ -88,6 +89,19 @@ def test_the_core_is_what_is_imported_without_an_extra():
             for name in names:
                 top = name.partition(".")[0]
                 assert top in known or top in sys.stdlib_module_names, f"{path}: {name}"
+
+
+def test_the_recipe_of_conda_requires_what_the_core_does():
+    recipe = yaml.safe_load((ROOT / "packaging/conda/recipe.yaml").read_text("utf-8"))
+    context = recipe["context"]
+    assert context["version"] == __version__
+    assert PROJECT["requires-python"] == ">=" + context["python_min"]
+    needed = {one.split(";")[0].replace(" ", "") for one in PROJECT["dependencies"]}
+    python, *others = recipe["requirements"]["run"]
+    assert python == "python >=${{ python_min }}"
+    assert {one.replace(" ", "") for one in others} == needed
+    (program,) = recipe["build"]["python"]["entry_points"]
+    assert program == f"urdftool = {PROJECT['scripts']['urdftool']}"
 
 
 def test_every_extra_that_is_named_exists():
