@@ -20,12 +20,13 @@ GOOD = '<robot name="r"><link name="l"/></robot>'
 
 
 @pytest.fixture(scope="module")
-def scheduler():
-    """The address of a scheduler with two workers."""
+def scheduler(programs):
+    """The address of a scheduler with two workers, which see the same programs as other tests."""
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None
-    ) as found:
+    with pytest.MonkeyPatch.context() as environment:
+        environment.setenv("PATH", programs)
+        found = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    with found:
         yield found.scheduler_address
 
 
@@ -71,6 +72,7 @@ def report_loss(task, loss):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("others", ["abc", "abcdefgh" * 10], ids=["single", "grouped"])
 @pytest.mark.parametrize(
     ("bad", "expected"),
     [
@@ -78,12 +80,12 @@ def report_loss(task, loss):
         ("kill the worker", "kill the worker: the cluster gave it up: KilledWorker"),
     ],
 )
-def test_a_worker_that_dies_loses_one_task(scheduler, bad, expected):
-    tasks = ["a", bad, "b", "c"]
+def test_a_worker_that_dies_loses_one_task(scheduler, bad, expected, others):
+    tasks = ["a", bad, *others]
     found = dict(
         map_anywhere(work, tasks, workers=1, scheduler=scheduler, on_lost=report_loss, tries=1)
     )
-    assert [found[index] for index in range(4)] == ["A", expected, "B", "C"]
+    assert [found[index] for index in range(len(tasks))] == ["A", expected, *others.upper()]
 
 
 @pytest.mark.slow

@@ -31,6 +31,10 @@ ENVIRONMENT = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH")
 _CONNECTING = 10.0  # s: time to reach the scheduler; chosen
 _POLL = 2.0  # s: time between two looks at the workers; chosen
 _WITHOUT_WORKERS = 30.0  # s: time after which a cluster without workers is given up; chosen
+_GROUPS = 16
+"""Groups of tasks per thread of the cluster, because Dask takes some 5 ms for each; chosen, so that
+the last groups end at about the same time."""
+
 _START = "import sys; sys.path[:] = sys.argv[1:]; from urdftool.cluster_child import serve; serve()"
 
 
@@ -123,13 +127,20 @@ def _run_on_cluster(job: Job, tasks: Sequence[Any], address: str) -> Iterator[tu
         try:
             client.register_plugin(plugin)
             sent = pickle.dumps(job)
-            futures = {}
-            for index, task in enumerate(tasks):
-                words = plugin.name, sent, pickle.dumps(task)
-                futures[client.submit(run_task, *words, pure=False)] = index
-            for future in futures:
+            futures: dict[Any, range] = {}
+
+            def submit(group: range) -> None:
+                """Submit a group of tasks, given by their indices."""
+                words = plugin.name, sent, [pickle.dumps(tasks[index]) for index in group]
+                future = client.submit(run_tasks, *words, pure=False)
+                futures[future] = group
                 future.add_done_callback(received.put)
-            yield from _receive(client, futures, received)
+
+            size = max(1, len(tasks) // (_GROUPS * max(1, sum(client.nthreads().values()))))
+            everything = range(len(tasks))
+            for start in everything[::size]:
+                submit(everything[start : start + size])
+            yield from _receive(client, futures, received, submit)
         finally:
             with suppress(Exception):  # the scheduler may be gone
                 client.unregister_worker_plugin(plugin.name)
@@ -156,10 +167,16 @@ def _connect(address: str) -> Any:
 
 
 def _receive(
-    client: Any, futures: dict[Any, int], received: SimpleQueue[Any]
+    client: Any,
+    futures: dict[Any, range],
+    received: SimpleQueue[Any],
+    submit: Callable[[range], None],
 ) -> Iterator[tuple[int, Any]]:
-    """Yield outcomes in the order in which they arrive; what is missing without workers is lost."""
-    missing = set(futures.values())
+    """Yield outcomes in the order in which they arrive; what is missing without workers is lost.
+
+    The tasks of a lost group are submitted once more, one by one, so that one of them is lost.
+    """
+    missing = {index for group in futures.values() for index in group}
     seen = monotonic()
     while missing:
         try:
@@ -172,10 +189,14 @@ def _receive(
                 return
             continue
         seen = monotonic()
-        index = futures[future]
-        missing.discard(index)
-        yield index, _read_outcome(future)
-        future.release()
+        group = futures.pop(future)
+        outcome = _read_outcome(future)
+        if isinstance(outcome, Loss) and len(group) > 1:
+            for index in group:
+                submit(range(index, index + 1))
+            continue
+        missing.difference_update(group)
+        yield from zip(group, [outcome] if isinstance(outcome, Loss) else outcome, strict=True)
 
 
 def _has_workers(client: Any) -> bool:
@@ -186,31 +207,35 @@ def _has_workers(client: Any) -> bool:
 
 
 def _read_outcome(future: Any) -> Any:
-    """Return what a worker answered; a :class:`Loss` if it was killed or failed otherwise."""
+    """Return the outcomes of a group; a :class:`Loss` if its worker was killed or failed."""
     try:
-        return pickle.loads(future.result())
+        return [pickle.loads(answer) for answer in future.result()]
     except Exception as error:  # KilledWorker, CancelledError, or any error of the worker
         return Loss(1, f"the cluster gave it up: {type(error).__name__}")
 
 
-def run_task(plugin: str, job: bytes, task: bytes) -> bytes:
-    """Run a task in a process of this Dask worker; return its pickled outcome.
+def run_tasks(plugin: str, job: bytes, tasks: Sequence[bytes]) -> list[bytes]:
+    """Run a group of tasks in a process of this Dask worker; return their pickled outcomes.
 
     Args:
         plugin: Name of the plugin that holds the processes.
         job: Pickled :class:`Job`.
-        task: Pickled task.
+        tasks: Pickled tasks.
     """
     import distributed
 
     library: Any = distributed
     children = library.get_worker().plugins[plugin]
     child = children.take()
-    answer: bytes | None = child.ask(job, task)
-    if answer is None:
-        return pickle.dumps(Loss(child.end()))
+    answers = []
+    for task in tasks:
+        answer: bytes | None = child.ask(job, task)
+        if answer is None:
+            answer = pickle.dumps(Loss(child.end()))
+            child = children.take()
+        answers.append(answer)
     children.give_back(child)
-    return answer
+    return answers
 
 
 def make_plugin() -> Any:
