@@ -20,7 +20,7 @@ MESH = '<mesh filename="part.stl"/>'
 
 
 def messages(path):
-    report = check_file(path, Options(Settings(select=("inertia",))))
+    report = check_file(path, Options(Settings(select=("inertia", "pedantic"))))
     assert not report.failed_rules
     return {finding.code: finding.message for finding in report.findings}
 

@@ -304,7 +304,8 @@ def _check_description(
                 finding = _convert_finding(rule, problem, settings, targets, robot)
                 if finding is None:
                     continue
-                if problem.pedantic and not settings.is_pedantic_on(rule.name):
+                is_off = problem.pedantic or _is_of_unmoved_robot(rule, finding, robot)
+                if is_off and not settings.is_pedantic_on(rule.name):
                     hidden.append(finding)
                     continue
                 findings.append(finding)
@@ -441,6 +442,13 @@ def _convert_finding(
         owner=problem.owner,
         data=problem.data,
     )
+
+
+def _is_of_unmoved_robot(rule: Rule, finding: Finding, robot: Robot | None) -> bool:
+    """Tell whether a remark about motion concerns an object or a scene: no joint of it moves."""
+    if robot is None or not rule.of_motion or finding.severity is Severity.ERROR:
+        return False
+    return bool(robot.links) and not robot.moving_joints
 
 
 def _replace_mujoco(effects: dict[str, str]) -> dict[str, str]:

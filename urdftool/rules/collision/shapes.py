@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ...model.bounds import has_extent
@@ -191,6 +192,9 @@ def write_known_shape(problem: Problem, context: FixContext) -> Proposal | None:
     return unsafe(f"write <{name}>", rename_element(element, name)) if name else None
 
 
+_GROUND = re.compile(r"ground|floor|plane|terrain|(^|_)world(_|$)", re.IGNORECASE)
+
+
 @rule(
     WARNING,
     effects={
@@ -204,9 +208,12 @@ def shape_in_millimeters(robot: Robot) -> Iterator[Problem]:
 
     URDF lengths are in meters. Shapes above ten meters may be intended; it is reported if
     another shape of the link has a thousandth of its lengths, or if the mass of the link fits a
-    thousandth of the lengths and would be lighter than air in meters.
+    thousandth of the lengths and would be lighter than air in meters. Not reported is a ground,
+    by its name, of a scene without a moving joint.
     """
     for link in robot.links:
+        if not robot.moving_joints and _GROUND.search(link.name):
+            continue
         for shape in find_shapes_in_millimeters(link):
             if shape.geometry is None:
                 continue

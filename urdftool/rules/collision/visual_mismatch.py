@@ -79,6 +79,7 @@ _SHORTEST = 8
         "pybullet": "uses the convex hull; for an OBJ with several objects, the hull of each",
         "pybullet (concave)": "uses its triangles for contact, because the collision is concave",
     },
+    pedantic="objects and scenes, which have no moving joint",
 )
 def visual_mesh_as_collision(
     robot: Robot, description: Description, *, dense: float = _DENSE
@@ -109,13 +110,14 @@ def visual_mesh_as_collision(
             heavy.append((use, faces))
     for concave in (False, True):
         yield from _report_visual_meshes(
+            robot,
             [one for one in heavy if is_concave(one[0]) is concave],
             ("moveit", "mujoco", "pybullet (concave)" if concave else "pybullet"),
         )
 
 
 def _report_visual_meshes(
-    heavy: list[tuple[MeshUse, int]], effects: tuple[str, ...]
+    robot: Robot, heavy: list[tuple[MeshUse, int]], effects: tuple[str, ...]
 ) -> Iterator[Problem]:
     """Report dense visual meshes used as collision geometry."""
     if heavy:
@@ -131,6 +133,7 @@ def _report_visual_meshes(
             at=heavy[0][0].mesh.locate_attribute("filename"),
             hint=_SIMPLER,
             effects=effects,
+            pedantic=not robot.moving_joints,
         )
 
 

@@ -69,7 +69,8 @@ _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-cla
     },
     group="robot",
     formats=URDF_AND_SDF,
-    pedantic="links fixed to the world, and robots of one link without collision, such as a goal",
+    pedantic="links fixed to the world, robots of one link without collision, such as a goal, and "
+    "objects and scenes, of which nothing moves and nothing has an inertial",
 )
 def missing_inertial(
     robot: Robot, description: Description, targets: frozenset[str]
@@ -162,8 +163,15 @@ def missing_inertial(
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
             effects=_select_effects(robot, link, case),
             alike=outcome,
-            pedantic=outcome == "static" or (len(robot.links) == 1 and not link.collisions),
+            pedantic=outcome == "static"
+            or (len(robot.links) == 1 and not link.collisions)
+            or (severity is not ERROR and _is_without_motion(robot)),
         )
+
+
+def _is_without_motion(robot: Robot) -> bool:
+    """Tell whether no joint of a robot moves and no link has an inertial, as in a scene."""
+    return not robot.moving_joints and all(link.inertial is None for link in robot.links)
 
 
 @missing_inertial.full

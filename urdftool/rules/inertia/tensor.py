@@ -51,6 +51,7 @@ _NOT_GAZEBO = ("mujoco", "pybullet", "urdfdom, KDL, pinocchio", "drake")
         "drake": "warns, and uses another inertia",
         "newton": "warns, and raises the moments",
     },
+    group="robot",
     formats=ANY_FORMAT,
 )
 def inertia_not_positive_definite(
@@ -88,6 +89,7 @@ def inertia_not_positive_definite(
         "drake": "warns, and uses another inertia",
         "newton": "warns, and raises the moments",
     },
+    group="robot",
     formats=ANY_FORMAT,
 )
 def inertia_triangle_inequality(

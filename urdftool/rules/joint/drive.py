@@ -78,6 +78,7 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
         "moveit": "does not time a trajectory: no velocity limit was defined",
         "gz": "passes a limit of 0 on to the engine",
     },
+    caused_by=("zero-effort-limit",),
     group="robot",
     formats=ANY_FORMAT,
 )
@@ -85,8 +86,9 @@ def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
     """The velocity limit of a moving joint is 0.
 
     Gazebo then does not allow the joint to move. MoveIt takes it as a missing limit and cannot time
-    a trajectory. ``locked-by-limits`` reports a joint whose lower and upper limit are equal. A
-    joint named as a dummy that moves neither geometry nor more than 1 g is not reported.
+    a trajectory. Where the effort limit is 0 too, both are one finding: an exporter wrote them.
+    ``locked-by-limits`` reports a joint whose lower and upper limit are equal. A joint named as a
+    dummy that moves neither geometry nor more than 1 g is not reported.
     """
     for joint, limit in _iterate_driven(robot):
         if limit.velocity == 0.0 and not is_locked(joint) and not is_dummy(robot, joint):

@@ -253,6 +253,7 @@ def follow_first_leader(problem: Problem, context: FixContext) -> Proposal | Non
         "mujoco": "4.0: limit and mimic constraint conflict, and the leader stops early too",
     },
     caused_by=("limit-in-degrees", "prismatic-in-millimeters"),
+    group="robot",
     formats=ANY_FORMAT,
 )
 def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
@@ -297,6 +298,7 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
                 if fits
                 else joint.limit.locate_attribute(name),
                 cause=(joint, leader),
+                alike=fits,
                 data={"leader": leader.name, "range": ends, "limits": [lower, upper]},
             )
 

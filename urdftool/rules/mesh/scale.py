@@ -105,14 +105,14 @@ def mesh_in_millimeters(
 
     STL files have no unit, and CAD programs often export millimeters, but readers take meters.
     Among thousands of meshes of real robots, none was between 2 m and 100 m long. Add
-    ``scale="0.001 0.001 0.001"``. In a world without moving parts, only STL files are reported,
-    because such a world may be that large.
+    ``scale="0.001 0.001 0.001"``. A scene without a moving joint may be as large as a building: of
+    such, only STL files above 100 m are reported.
     """
     seen: set[str] = set()
     for use in get_mesh_uses(robot, description):
         length = _compute_largest(use) if use.uri not in seen else None
         if length is not None and length > largest:
-            if not robot.moving_joints and not use.uri.lower().endswith(".stl"):
+            if not robot.moving_joints and not _is_larger_than_scene(use, length):
                 continue
             seen.add(use.uri)
             yield _report_large_mesh(use, length, largest)
@@ -128,9 +128,19 @@ def report_every_mesh_in_millimeters(robot: Robot) -> Iterator[Problem]:
         length = _compute_largest(use) if (use.link.name, use.uri) not in seen else None
         if length is None or length <= largest:
             continue
-        if robot.moving_joints or use.uri.lower().endswith(".stl"):
+        if robot.moving_joints or _is_larger_than_scene(use, length):
             seen.add((use.link.name, use.uri))
             yield _report_large_mesh(use, length, largest)
+
+
+_SCENE = 100.0
+"""Largest length [m] of a scene; STL scenes of hpp-environments have up to 27 m."""
+
+
+def _is_larger_than_scene(use: MeshUse, length: float) -> bool:
+    if not use.uri.lower().endswith(".stl"):
+        return False
+    return max(length, _compute_largest(use, whole=True) or 0.0) > _SCENE
 
 
 def _report_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:

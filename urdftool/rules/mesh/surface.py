@@ -146,6 +146,7 @@ def not_watertight(
         "mujoco": "3.3 and 4.0 load it",
         "rviz": "lights it by the normals of the file",
     },
+    group="robot",
     formats=URDF_AND_SDF,
 )
 def inverted_mesh(robot: Robot, description: Description) -> Iterator[Problem]:

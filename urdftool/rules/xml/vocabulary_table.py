@@ -108,7 +108,7 @@ DIALECTS: dict[str, frozenset[str]] = {
     ),
     "link": frozenset(("contact", "audio_source", "self_collision_checking", "inertia_scaling")),
     "visual": frozenset(("meta",)),
-    "collision": frozenset(("verbose", "contact_coefficients")),
+    "collision": frozenset(("verbose", "contact_coefficients", "sdf")),
     "material": frozenset(("specular",)),
     "geometry": frozenset(("plane", "cdf", "ellipsoid", "cone", "torus", "convex")),
     "joint": frozenset(("hardwareInterface",)),
