@@ -212,3 +212,56 @@ def test_a_joint_that_moves_is_meant_unless_only_the_case_differs(tmp_path, name
     (found,) = find(tmp_path, "mimic-unknown-joint", *parts)
     assert found.data["suggestion"] == near
     assert f"did you mean '{near}'?" in found.message
+
+
+@pytest.mark.parametrize(
+    ("limit", "words"),
+    [
+        ('lower="-100" upper="100" effort="1000" velocity="100"', "make the joint continuous"),
+        ('lower="-100" upper="100" effort="12" velocity="3"', "looks like degrees"),
+        ('lower="-90" upper="90" effort="100" velocity="100"', "looks like degrees"),
+    ],
+)
+def test_a_round_limit_among_round_numbers_is_no_limit(tmp_path, limit, words):
+    file = tmp_path / "r.urdf"
+    file.write_text(
+        '<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/></inertial>'
+        '</link><joint name="j" type="revolute"><parent link="a"/><child link="b"/>'
+        f"<limit {limit}/></joint></robot>"
+    )
+    (finding,) = check(file, select=["limit-in-degrees"])
+    assert words in finding.message
+
+
+def test_a_gripper_is_mirrored_in_its_own_frame(tmp_path):
+    """Its frame is turned by 45 degrees about the arm's axis, as of the Panda."""
+    body = (
+        '<link name="{0}"><inertial><mass value="1"/><inertia ixx="1e-3" ixy="0" ixz="0" '
+        'iyy="1e-3" iyz="0" izz="1e-3"/></inertial></link>'
+    )
+    joint = (
+        '<joint name="{0}_joint" type="revolute"><parent link="{1}"/><child link="{0}"/>'
+        '<origin xyz="{2}" rpy="{3}"/><axis xyz="1 0 0"/>'
+        '<limit lower="0" upper="1" effort="1" velocity="1"/></joint>'
+    )
+    arms = [("left_arm", "base", "0 0.2 0"), ("right_arm", "base", "0 -0.2 0")]
+    arms += [("left_leg", "base", "0.3 0.2 0"), ("right_leg", "base", "0.3 -0.2 0")]
+    arms += [("left_foot", "left_leg", "0.3 0 0"), ("right_foot", "right_leg", "0.3 0 0")]
+
+    def lint(*fingers):
+        parts = [*arms, ("hand", "base", "0 0 0.3", "0 0 0.785"), *fingers]
+        text = body.format("base") + "".join(
+            body.format(name) + joint.format(name, parent, xyz, *(rest or ("0 0 0",)))
+            for name, parent, xyz, *rest in parts
+        )
+        file = tmp_path / "r.urdf"
+        file.write_text(f'<robot name="r">{text}</robot>')
+        return [finding.name for finding in check(file, select=["joint-not-mirrored"])]
+
+    assert (
+        lint(("left_finger", "hand", "0 0.05 0.1"), ("right_finger", "hand", "0 -0.05 0.1")) == []
+    )
+    moved = ("left_finger", "hand", "0 0.05 0.1"), ("right_finger", "hand", "0 -0.09 0.1")
+    assert lint(*moved) == ["right_finger_joint"]
+    same = ("left_finger", "hand", "0.02 0.05 0.1"), ("right_finger", "hand", "0.02 0.05 0.13")
+    assert lint(*same) == ["right_finger_joint"]

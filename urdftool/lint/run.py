@@ -28,6 +28,11 @@ from ..source.location import SourceFile
 from ..source.packages import Packages
 from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
+from .imported_readers import (
+    concerns_no_reader,
+    find_imported_readers,
+    is_of_unmoved_robot,
+)
 from .merge import merge, sort_findings
 from .moot import Rejections
 from .motion import (
@@ -287,6 +292,8 @@ def _check_description(
         "targets": targets,
         "guessed": guessed,
     }
+    chosen = settings.targets is not None  # then the user named the readers
+    used = None if chosen else find_imported_readers(description, targets)
     ran: set[str] = set()
     origins: dict[int, Any] = {}
     hidden: list[Finding] = []
@@ -304,7 +311,11 @@ def _check_description(
                 finding = _convert_finding(rule, problem, settings, targets, robot)
                 if finding is None:
                     continue
-                is_off = problem.pedantic or _is_of_unmoved_robot(rule, finding, robot)
+                is_off = (
+                    problem.pedantic
+                    or is_of_unmoved_robot(rule, finding, robot)
+                    or concerns_no_reader(rule, finding, used)
+                )
                 if is_off and not settings.is_pedantic_on(rule.name):
                     hidden.append(finding)
                     continue
@@ -442,13 +453,6 @@ def _convert_finding(
         owner=problem.owner,
         data=problem.data,
     )
-
-
-def _is_of_unmoved_robot(rule: Rule, finding: Finding, robot: Robot | None) -> bool:
-    """Tell whether a remark about motion concerns an object or a scene: no joint of it moves."""
-    if robot is None or not rule.of_motion or finding.severity is Severity.ERROR:
-        return False
-    return bool(robot.links) and not robot.moving_joints
 
 
 def _replace_mujoco(effects: dict[str, str]) -> dict[str, str]:

@@ -100,8 +100,8 @@ def is_found_by_mujoco(use: MeshUse, folder: MeshFolder, description: Descriptio
 def find_lost_in_mujoco(robot: Robot, description: Description) -> list[MeshUse]:
     """Find the meshes whose file MuJoCo opens and does not find.
 
-    A URI with a scheme counts only if its file is known to be missing: who loads such a robot
-    replaces the scheme by a path first.
+    A URI with a scheme counts only if its file is known to be missing, or its package is a folder
+    that only PyBullet takes as one: who loads another robot replaces the scheme by a path first.
     """
     folder, keeps = read_mesh_folder(robot), keeps_visuals(robot)
     return [
@@ -113,5 +113,17 @@ def find_lost_in_mujoco(robot: Robot, description: Description) -> list[MeshUse]
         and "${" not in use.uri
         and "$(" not in use.uri
         and not is_found_by_mujoco(use, folder, description)
-        and ("://" not in use.uri or folder.strippath or (use.path and not use.exists))
+        and (
+            "://" not in use.uri
+            or folder.strippath
+            or (use.path and not use.exists)
+            or get_assumed_package(use, description)
+        )
     ]
+
+
+def get_assumed_package(use: MeshUse, description: Description) -> str:
+    """Get the package of a mesh in whose place a folder of the same name is read, if one is."""
+    scheme, _, rest = use.uri.partition("://")
+    name = rest.lstrip("/").partition("/")[0]
+    return name if scheme == "package" and name in description.packages.assumed else ""

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ..model.elements import Joint, Link, Robot, Vector
 from ..model.kinematics import get_zero_poses
-from ..model.pose import Pose, rotate
+from ..model.pose import Pose, make_pose, rotate
 
 _PAIRS = (
     *(("left", "right"), ("l", "r")),
@@ -129,6 +129,21 @@ class Sides:
         left, right = list(one.translation), list(other.translation)
         right[normal] = -right[normal]
         return math.dist(left, right) <= _compute_tolerance(one.translation)
+
+    def is_mirrored_in_parent(self, pair: Pair) -> bool:
+        """Tell whether joints of one parent are mirror images in a plane of the parent's frame.
+
+        A gripper whose frame is turned about the axis of an arm is symmetric in its own frame.
+        """
+        left, right = pair.left_joint, pair.right_joint
+        if left.parent != right.parent:
+            return False
+        one, other = make_pose(left.origin).translation, make_pose(right.origin).translation
+        return any(
+            abs(other[axis]) > (most := _compute_tolerance(one))
+            and math.dist(one, [-x if at == axis else x for at, x in enumerate(other)]) <= most
+            for axis in range(3)
+        )
 
     def is_taken_back(self, pair: Pair) -> bool:
         """Tell whether the next joints of a displaced pair are mirror images again."""

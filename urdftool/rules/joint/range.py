@@ -198,9 +198,10 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
     """A limit of a revolute joint is larger than two turns.
 
     Angles are in radians. A limit of 90 allows 14 turns, and planners find many solutions for one
-    pose. A very large number usually means no limit; the joint should then be ``continuous``. A
-    joint that only moves a frame without mass and geometry, such as one of six that give a free
-    robot its pose, is not reported. ``largest`` [rad] is the largest limit that is not reported.
+    pose. A very large number usually means no limit; the joint should then be ``continuous``. So do
+    -100 and 100 where the effort or the velocity is 100, 1000 or 10,000 too. A joint that only
+    moves a frame without mass and geometry, such as one of six that give a free robot its pose, is
+    not reported. ``largest`` [rad] is the largest limit that is not reported.
     """
     for joint in robot.joints:
         limit = joint.limit
@@ -213,7 +214,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
         value = upper if name == "upper" else lower
         at = limit.locate_attribute(name)
         what = f"{name} limit {value:g} of joint '{joint.name}'"
-        if abs(value) >= 1e3:
+        if abs(value) >= 1e3 or _is_round_number(joint, value):
             yield Problem(
                 joint,
                 f"{what} is in effect no limit; make the joint continuous",
@@ -238,6 +239,15 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
                 at=at,
                 data={"limit": value},
             )
+
+
+def _is_round_number(joint: Joint, value: float) -> bool:
+    """Tell whether a limit is -100 to 100, with velocity or effort as round: no limit is meant."""
+    limit = joint.limit
+    if limit is None or value not in (100.0, -100.0) or limit.lower != -(limit.upper or 0.0):
+        return False
+    rounded = (100.0, 1000.0, 10000.0)
+    return limit.velocity in rounded or limit.effort in rounded
 
 
 def _is_in_degrees(value: float) -> bool:

@@ -28,13 +28,16 @@ def joint_not_mirrored(robot: Robot, *, small: float = 0.01) -> Iterator[Problem
     Left and right are recognized by link names; ambiguous names are not compared. Reported are
     joints that move, of robots where most pairs are symmetric. Only the first displaced joint of a
     limb is reported. Limbs whose joints have the same ``<origin>`` on both sides are copies, and
-    not reported, neither is a displacement that the next joint takes back, or that takes back one.
+    not reported, neither is a displacement that the next joint takes back, or that takes back one,
+    nor two joints of one link that are mirror images in its own frame, as in a turned gripper.
     Up to ``small`` [m] it is an info.
     """
     sides = get_sides(robot)
     for pair, gap in sides.off:
         right = pair.right_joint
         if right.is_fixed or sides.is_taken_back(pair) or sides.is_mirrored_in_root(pair):
+            continue
+        if sides.is_mirrored_in_parent(pair):
             continue
         if right.parent != pair.left_joint.parent and _has_the_same_origin(pair):
             continue

@@ -12,6 +12,7 @@ from ...source.description import Description
 from ...source.packages import shorten_path, suggest_folder
 from ..mesh.dropped import is_dropped
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses
+from ..mujoco import find_lost_in_mujoco, get_assumed_package
 from ..rule import INFO, ROS, WARNING, Problem, rule
 
 APPLIES_TO = ("mesh",)
@@ -25,6 +26,7 @@ APPLIES_TO = ("mesh",)
         "drake": "rejects the robot",
         "pybullet (no such folder)": "rejects the robot: it finds no folder of that name",
         "pybullet (a folder)": "takes the folder of that name as the package",
+        "mujoco (a folder)": "4.0 rejects the robot: it does not resolve package://",
     },
     group="repository",
 )
@@ -73,10 +75,9 @@ def _report_assumed_packages(
 ) -> Iterator[Problem]:
     """Report packages in whose place a folder of the same name is read."""
     found: dict[str, list[MeshUse]] = {}
+    lost = {use.uri for use in find_lost_in_mujoco(robot, description)}
     for use in get_mesh_uses(robot, description):
-        scheme, _, rest = use.uri.partition("://")
-        name = rest.lstrip("/").partition("/")[0]
-        if scheme == "package" and name in description.packages.assumed:
+        if name := get_assumed_package(use, description):
             found.setdefault(name, []).append(use)
     for name, uses in found.items():
         count = len({use.uri for use in uses})
@@ -88,7 +89,10 @@ def _report_assumed_packages(
             f"'{shorten_path(folder)}', as PyBullet does; write "
             f"'{_make_uri_from(uses[0], folder, description)}'",
             at=uses[0].mesh.locate_attribute("filename"),
-            effects=(*_select_rviz_effect(uses), "drake", "pybullet (a folder)"),
+            effects=(
+                *(*_select_rviz_effect(uses), "drake", "pybullet (a folder)"),
+                *["mujoco (a folder)"] * any(use.uri in lost for use in uses),
+            ),
             severity=severity,
             alike=(name,),
             group=f"package '{name}' is not found, so meshes of {{count}} robots are read from "

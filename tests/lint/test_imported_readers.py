@@ -1,0 +1,74 @@
+"""Findings that concern no reader which the Python code of a project imports."""
+
+import pytest
+
+from urdftool.api.lint import check
+
+ROBOT = """<robot name="cart">
+  <link name="hand">
+    <inertial>
+      <mass value="1"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
+    </inertial>
+    <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+  </link>
+  <link name="finger">
+    <inertial>
+      <mass value="1"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
+    </inertial>
+    <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+  </link>
+  <joint name="turn" type="revolute">
+    <parent link="hand"/><child link="finger"/><origin xyz="0 0 1"/>
+    <limit lower="0" upper="0.04" effort="20" velocity="0.2"/>
+  </joint>
+</robot>
+"""
+
+
+def _names(tmp_path, code, mark="setup.py", robot=ROBOT, **options):
+    (tmp_path / mark).write_text("")
+    (tmp_path / "env.py").write_text(code)
+    folder = tmp_path / "data"
+    folder.mkdir(exist_ok=True)
+    (folder / "cart.urdf").write_text(robot)
+    return {finding.code for finding in check(folder / "cart.urdf", **options)}
+
+
+@pytest.mark.parametrize(
+    ("code", "reported"),
+    [
+        ("", True),
+        ("import pybullet as p\n", False),
+        ("    from ikpy.chain import Chain\n", False),
+        ("import pybullet\nimport mujoco\n", True),
+        ("import pybullet\nimport isaacgym\n", True),
+        ("import pybullet\nflags = pybullet.URDF_USE_INERTIA_FROM_FILE\n", True),
+        ("# import pybullet\n", True),
+    ],
+)
+def test_an_inertia_that_no_reader_of_the_project_takes_is_off(tmp_path, code, reported):
+    assert ("placeholder-inertia" in _names(tmp_path, code)) is reported
+
+
+def test_it_is_reported_if_its_rule_or_a_reader_is_named(tmp_path):
+    code = "import pybullet\n"
+    assert "placeholder-inertia" in _names(tmp_path, code, targets=["mujoco"])
+    assert "placeholder-inertia" in _names(tmp_path, code, select=["placeholder-inertia"])
+
+
+def test_code_of_a_folder_that_is_no_package_says_nothing(tmp_path):
+    assert "placeholder-inertia" in _names(tmp_path, "import pybullet\n", mark="other.txt")
+
+
+def test_an_error_stays(tmp_path):
+    robot = ROBOT.replace('ixx="1"', 'ixx="9"')
+    assert "inertia-triangle-inequality" in _names(tmp_path, "import pybullet\n", robot=robot)
+
+
+def test_a_scene_is_not_told_about_inertias(tmp_path):
+    robot = ROBOT.replace('type="revolute"', 'type="fixed"')
+    assert "placeholder-inertia" not in _names(tmp_path, "", robot=robot)
+    robot = robot.replace('ixx="1"', 'ixx="9"')
+    assert "inertia-triangle-inequality" in _names(tmp_path, "", robot=robot)

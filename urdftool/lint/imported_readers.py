@@ -1,0 +1,127 @@
+"""Readers of robots that the Python code of a project imports: who uses the description there.
+
+A package such as an environment of PyBullet brings its robots for one engine. What another engine
+would do with an implausible inertia concerns nobody there, so such findings are off by default.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+from ..diagnostic import Severity
+from ..errors import UrdftoolError
+from ..finding import Finding
+from ..model.elements import Robot
+from ..projects import list_above
+from ..rules.rule import ROS, Rule
+from ..source.description import Description
+from ..workspace import Workspace, memoize_by_workspace
+
+_READERS = {
+    **dict.fromkeys(("mujoco", "mujoco_py", "dm_control", "robosuite", "brax"), "mujoco"),
+    **dict.fromkeys(("pybullet", "pybullet_utils", "pybullet_data"), "pybullet"),
+    **dict.fromkeys(("pinocchio", "crocoddyl", "tsid", "pink", "placo"), "pinocchio"),
+    **dict.fromkeys(("jiminy_py", "gym_jiminy"), "pinocchio"),
+    "pydrake": "drake",
+    "newton": "newton",
+    **dict.fromkeys(("ikpy", "kinpy", "pytorch_kinematics", "tracikpy", "pyroki"), "kinematics"),
+}
+"""Reader, as effects name it, of each library; "kinematics" reads no masses and no collisions."""
+
+_OTHER_ENGINES = frozenset(
+    (
+        *("isaacgym", "isaacsim", "isaaclab", "omni", "genesis", "sapien", "mani_skill", "dartpy"),
+        *("raisimpy", "scenario", "gym_ignition", "jaxsim", "idyntree", "roboticstoolbox", "gz"),
+        *("rclpy", "rospy", "moveit_commander", "klampt", "chrono", "pychrono", "adam"),
+    )
+)
+"""Libraries of dynamics, simulators and ROS, of whose readers effects say little."""
+
+_PACKAGING = ("pyproject.toml", "setup.py", "PKG-INFO", ".git")
+_IMPORT = re.compile(rb"(?m)^[ \t]*(?:import|from)[ \t]+(\w+)")
+_KEEPS_INERTIA = b"URDF_USE_INERTIA_FROM_FILE"
+
+_FILES = 400
+"""Most Python files that are read; with more, nothing is said. Chosen, no source."""
+
+_SIMULATORS = frozenset(("gz", "gazebo-classic", "mujoco", "pybullet", "drake", "newton"))
+
+
+def find_imported_readers(
+    description: Description, targets: frozenset[str]
+) -> frozenset[str] | None:
+    """Find the readers for which a project brings a description, as effects name them.
+
+    Args:
+        description: The description.
+        targets: Its targets, which are readers too.
+
+    Returns:
+        The readers; None if the code imports none, or an engine that effects do not name, if the
+        project is for ROS, where others use its packages, or if PyBullet is told to use inertias.
+    """
+    if description.path == "-" or not targets.isdisjoint(ROS):
+        return None
+    files = description.packages.files
+    folder = Path(os.path.abspath(description.path)).parent
+    for place in list_above(folder, files):
+        if _is_packaged(files, place):
+            found = _read_imports(files, str(place))
+            return None if found is None else found | targets
+    return None
+
+
+def _is_packaged(files: Workspace, folder: Path) -> bool:
+    if any(files.exists(folder / name) for name in _PACKAGING):
+        return True
+    try:
+        entries = files.list_folder(folder)
+    except OSError:
+        return False
+    return any(entry.name.endswith((".dist-info", ".egg-info")) for entry in entries)
+
+
+@memoize_by_workspace
+def _read_imports(files: Workspace, folder: str) -> frozenset[str] | None:
+    paths = [
+        os.path.join(place, name)
+        for place, _, names in files.walk(folder)
+        for name in names
+        if name.endswith(".py")
+    ]
+    if len(paths) > _FILES:
+        return None
+    modules: set[str] = set()
+    for path in paths:
+        try:
+            text = files.read_bytes(path)
+        except (OSError, UrdftoolError):
+            continue
+        if _KEEPS_INERTIA in text:
+            return None
+        modules.update(word.decode() for word in _IMPORT.findall(text))
+    readers = frozenset(_READERS[name] for name in modules & _READERS.keys())
+    return None if not readers or modules & _OTHER_ENGINES else readers
+
+
+def concerns_no_reader(rule: Rule, finding: Finding, used: frozenset[str] | None) -> bool:
+    """Tell whether a finding below error has effects on readers that a project does not use.
+
+    Of rules that are not about motion, only remarks about simulators are judged: a file that
+    readers take differently is worth knowing.
+    """
+    if used is None or finding.severity is Severity.ERROR:
+        return False
+    readers = {reader for key in finding.effects for reader in key.split(", ")}
+    if not readers or not readers.isdisjoint(used):
+        return False
+    return rule.of_motion or (finding.severity is Severity.INFO and readers <= _SIMULATORS)
+
+
+def is_of_unmoved_robot(rule: Rule, finding: Finding, robot: Robot | None) -> bool:
+    """Tell whether a remark about motion concerns an object or a scene: no joint of it moves."""
+    if robot is None or not rule.of_motion or finding.severity is Severity.ERROR:
+        return False
+    return bool(robot.links) and not robot.moving_joints
