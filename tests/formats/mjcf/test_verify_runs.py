@@ -74,6 +74,16 @@ def test_an_arm_without_a_servo_is_not_equal(tmp_path):
     assert all(text.startswith("joints move by up to ") for text in check.announced)
 
 
+@pytest.mark.parametrize(("gain", "verdict"), [("0.3", "announced"), ("200", "equal")])
+def test_an_arm_whose_servo_is_weak_is_not_equal(tmp_path, gain, verdict):
+    path = make(tmp_path, height=1, servos=True)
+    weak = path.read_text().replace('kp="200" kv="5"', f'kp="{gain}" kv="0.1"')
+    path.write_text(weak.replace("<freejoint/>", ""))
+    check = runs(path)
+    assert check.verdict == verdict
+    assert not [text for text in check.announced if "not held" in text]
+
+
 def test_a_robot_that_starts_above_the_floor_sags(tmp_path):
     check = runs(make(tmp_path, height=0.125, legs=0))
     assert check.verdict == "announced"
