@@ -20,7 +20,7 @@ from ...errors import MeshError
 from ...geometry.stl_header import is_lfs_pointer, read_stl_header
 
 _HEAD = 65536
-"""Bytes that are read to tell the kind of a file. Chosen, no source."""
+"""Bytes by which the kind of a file is recognized. Chosen, no source."""
 
 _NUMBER = rb"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _POINT = re.compile(rb"(?m)^[ \t]*v(?:[ \t]+" + _NUMBER + rb"){3}")
