@@ -56,3 +56,8 @@ def is_light_marker(link: Link) -> bool:
 
 _LIGHT = 1e-3
 """Mass of a marker [kg]. Chosen, no source."""
+
+
+def is_massless_scene(robot: Robot) -> bool:
+    """Tell whether no joint of a robot moves and no link has an inertial, as in a scene."""
+    return not robot.moving_joints and all(link.inertial is None for link in robot.links)

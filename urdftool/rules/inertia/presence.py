@@ -35,7 +35,7 @@ from ..symmetry import find_twin
 from ..tree.mounted import is_arm, is_floating_base
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
-from .device_frames import is_light_marker, is_slight_frame
+from .device_frames import is_light_marker, is_massless_scene, is_slight_frame
 from .light_body import find_light_body
 from .optional_inertials import has_optional_inertials
 from .solids import DENSITY
@@ -69,8 +69,7 @@ _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-cla
     },
     group="robot",
     formats=URDF_AND_SDF,
-    pedantic="links fixed to the world, robots of one link without collision, such as a goal, and "
-    "objects and scenes, of which nothing moves and nothing has an inertial",
+    pedantic="links fixed to the world, robots of one link without collision, and massless scenes",
 )
 def missing_inertial(
     robot: Robot, description: Description, targets: frozenset[str]
@@ -85,7 +84,6 @@ def missing_inertial(
     there too. This info is not given for markers of at most 1 cm, for frames of tools and sensors
     by name of at most 6 cm, for links that are fixed to the world, and where the 1 kg of PyBullet
     is less than a fiftieth of the robot's mass and than its body's.
-    The mass of a link that is fixed to the world matters only to Gazebo.
     Frames without geometry need none, although PyBullet gives them 1 kg, nor does a frame with a
     marker below 1 g at the density of water that is fixed to a link with a mass. Another such
     marker is an info where MuJoCo substitutes the mass. Without a simulator among the targets,
@@ -148,9 +146,8 @@ def missing_inertial(
         else:
             outcome, severity, so = "no mass", WARNING, " and so has no mass"
             several = " and so have no mass"
-        has_shapes = bool(link.visuals or link.collisions)
         warned_by_kdl = link is robot.tree.root and not targets.isdisjoint(ROS)
-        needs_mass = severity is not INFO and has_shapes and not warned_by_kdl
+        needs_mass = severity is not INFO and not warned_by_kdl
         if kept is None:
             case = "not one tree"
         else:
@@ -164,14 +161,9 @@ def missing_inertial(
             effects=_select_effects(robot, link, case),
             alike=outcome,
             pedantic=outcome == "static"
-            or (len(robot.links) == 1 and not link.collisions)
-            or (severity is not ERROR and _is_without_motion(robot)),
+            or (severity is not ERROR and is_massless_scene(robot))
+            or (len(robot.links) == 1 and not link.collisions),
         )
-
-
-def _is_without_motion(robot: Robot) -> bool:
-    """Tell whether no joint of a robot moves and no link has an inertial, as in a scene."""
-    return not robot.moving_joints and all(link.inertial is None for link in robot.links)
 
 
 @missing_inertial.full

@@ -28,3 +28,12 @@ def is_dummy(robot: Robot, joint: Joint) -> bool:
     """
     named = _DUMMY.search(joint.name) or _DUMMY.search(joint.child)
     return bool(named) and moves_nothing(robot, joint)
+
+
+def is_round_number(joint: Joint, value: float) -> bool:
+    """Tell whether a limit is -100 to 100, with velocity or effort as round: no limit is meant."""
+    limit = joint.limit
+    if limit is None or value not in (100.0, -100.0) or limit.lower != -(limit.upper or 0.0):
+        return False
+    rounded = (100.0, 1000.0, 10000.0)
+    return limit.velocity in rounded or limit.effort in rounded

@@ -22,7 +22,7 @@ from ..fix import (
 from ..mesh.link_extents import get_extents
 from ..renaming import list_names_in_blocks
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
-from .idle import is_dummy
+from .idle import is_dummy, is_round_number
 
 
 @rule(
@@ -214,7 +214,7 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
         value = upper if name == "upper" else lower
         at = limit.locate_attribute(name)
         what = f"{name} limit {value:g} of joint '{joint.name}'"
-        if abs(value) >= 1e3 or _is_round_number(joint, value):
+        if abs(value) >= 1e3 or is_round_number(joint, value):
             yield Problem(
                 joint,
                 f"{what} is in effect no limit; make the joint continuous",
@@ -239,15 +239,6 @@ def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[
                 at=at,
                 data={"limit": value},
             )
-
-
-def _is_round_number(joint: Joint, value: float) -> bool:
-    """Tell whether a limit is -100 to 100, with velocity or effort as round: no limit is meant."""
-    limit = joint.limit
-    if limit is None or value not in (100.0, -100.0) or limit.lower != -(limit.upper or 0.0):
-        return False
-    rounded = (100.0, 1000.0, 10000.0)
-    return limit.velocity in rounded or limit.effort in rounded
 
 
 def _is_in_degrees(value: float) -> bool:
