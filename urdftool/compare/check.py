@@ -52,7 +52,7 @@ class Check:
 
     @property
     def shown(self) -> str:
-        """Return the result for a table, which says so where only a part could be compared."""
+        """Return the result for a table, with the case that only a part could be compared."""
         if self.is_partial and self.verdict in WITHOUT_DIFFERENCE:
             return "equal, in part" if self.verdict == "equal" else "not compared"
         return self.verdict

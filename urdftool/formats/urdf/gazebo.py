@@ -20,7 +20,7 @@ from .control import is_joint_state
 from .translation import Translation, add, add_origin, get_rpy
 
 NOT_COPIED = ("link", "joint", "material", "mujoco")
-"""Elements that are written anew; <mujoco> names folders of meshes of its source."""
+"""Elements that the export writes itself; <mujoco> names folders of meshes of its source."""
 
 _IMU = ("gyro", "accelerometer")
 _FORCE = ("force", "torque")
