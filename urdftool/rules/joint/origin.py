@@ -20,6 +20,7 @@ _DEGREES = frozenset(map(float, (*range(30, 361, 30), *range(45, 361, 45))))
     effects={
         "urdfdom, gz, gazebo-classic": "take it as radians, without a message",
     },
+    pedantic="angles that are no usual ones in degrees, as of exporters that keep turns",
 )
 def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iterator[Problem]:
     """A rotation of an ``<origin>`` is more than one turn.
@@ -60,6 +61,7 @@ def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iter
             at=element.locate_attribute("rpy"),
             severity=WARNING if "degrees" in data else INFO,
             data=data,
+            pedantic="degrees" not in data,
         )
 
 

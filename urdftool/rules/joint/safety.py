@@ -99,6 +99,7 @@ def _write_limits(safety: SafetyController, limit: Limit, *names: str) -> Propos
         "moveit": "takes the hard limit",
         "gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": "ignore the soft limits",
     },
+    pedantic="both soft limits beyond the limits, as in robots that leave them without effect",
 )
 def soft_limits_outside_hard(
     robot: Robot, targets: frozenset[str], *, tolerance: float = 1e-6
@@ -146,6 +147,7 @@ def soft_limits_outside_hard(
             what,
             at=safety.locate_attribute(name),
             data={"soft_lower": low, "soft_upper": high},
+            pedantic=below and above,
         )
 
 
