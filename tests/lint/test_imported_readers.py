@@ -1,5 +1,7 @@
 """Findings that concern no reader which the Python code of a project imports."""
 
+import json
+
 import pytest
 
 from urdftool.api.lint import check
@@ -72,3 +74,22 @@ def test_a_scene_is_not_told_about_inertias(tmp_path):
     assert "placeholder-inertia" not in _names(tmp_path, "", robot=robot)
     robot = robot.replace('ixx="1"', 'ixx="9"')
     assert "inertia-triangle-inequality" in _names(tmp_path, "", robot=robot)
+
+
+@pytest.mark.parametrize("variants", ["", '[[lint.variants]]\nfile = "data/cart.urdf"\n' * 2])
+def test_the_last_lines_count_what_is_left_out(tmp_path, urdftool, variants):
+    _names(tmp_path, "import pybullet\n")
+    (tmp_path / "urdftool.toml").write_text(variants)
+    for _ in ("first", "from the cache"):
+        result = urdftool("lint", tmp_path, "--format", "json")
+        left_out = json.loads(result.out)["summary"]["for_other_readers"]
+        assert left_out["placeholder-inertia"] >= 1
+        total = sum(left_out.values())
+        assert f"{total} finding" in result.err
+        assert "--extend-select pedantic shows" in result.err
+    shown = urdftool("lint", tmp_path, "--format", "json", "--extend-select", "pedantic")
+    assert "left out" not in shown.err
+    summary = json.loads(shown.out)["summary"]
+    assert "for_other_readers" not in summary
+    codes = [finding["rule"] for finding in json.loads(shown.out)["findings"]]
+    assert left_out.keys() <= set(codes)

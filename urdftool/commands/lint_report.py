@@ -72,7 +72,12 @@ def report(
     from ..report.findings import summarize
     from ..report.findings_formats import as_text
     from ..report.findings_screen import MANY, format_advice
-    from ..report.findings_words import list_rejections, list_skipped_rules, list_unread_meshes
+    from ..report.findings_words import (
+        list_left_out,
+        list_rejections,
+        list_skipped_rules,
+        list_unread_meshes,
+    )
 
     outcome = gather(reports)
     targets = output.output_file, output.write_baseline, output.junit
@@ -113,7 +118,8 @@ def report(
         for line in list_rejections(outcome) if style == "full" else ():
             console.print_note(line)
         console.print_note(summarize(outcome))
-        for line in (*list_skipped_rules(outcome), *list_unread_meshes(outcome)):
+        left_out = list_left_out(outcome)
+        for line in (*list_skipped_rules(outcome), *list_unread_meshes(outcome), *left_out):
             console.print_note(line)
         people = style in ("full", "concise") and not output.statistics
         for line in format_advice(outcome.findings, single) if people else ():

@@ -1,7 +1,8 @@
 """Readers of robots that the Python code of a project imports: who uses the description there.
 
 A package such as an environment of PyBullet brings its robots for one engine. What another engine
-would do with an implausible inertia concerns nobody there, so such findings are off by default.
+would do with an implausible inertia is not seen there, so such findings are off by default, and
+the last lines of a report count them.
 """
 
 from __future__ import annotations
@@ -37,14 +38,14 @@ _OTHER_ENGINES = frozenset(
         *("rclpy", "rospy", "moveit_commander", "klampt", "chrono", "pychrono", "adam"),
     )
 )
-"""Libraries of dynamics, simulators and ROS, of whose readers effects say little."""
+"""Libraries of dynamics, simulators and ROS, whose behavior few effects describe."""
 
 _PACKAGING = ("pyproject.toml", "setup.py", "PKG-INFO", ".git")
 _IMPORT = re.compile(rb"(?m)^[ \t]*(?:import|from)[ \t]+(\w+)")
 _KEEPS_INERTIA = b"URDF_USE_INERTIA_FROM_FILE"
 
 _FILES = 400
-"""Most Python files that are read; with more, nothing is said. Chosen, no source."""
+"""Maximum number of Python files that are read; of more, none is. Chosen, no source."""
 
 _SIMULATORS = frozenset(("gz", "gazebo-classic", "mujoco", "pybullet", "drake", "newton"))
 
@@ -60,7 +61,8 @@ def find_imported_readers(
 
     Returns:
         The readers; None if the code imports none, or an engine that effects do not name, if the
-        project is for ROS, where others use its packages, or if PyBullet is told to use inertias.
+        project is for ROS, where others use its packages, or if it sets the flag of PyBullet that
+        keeps inertias.
     """
     if description.path == "-" or not targets.isdisjoint(ROS):
         return None
@@ -106,7 +108,7 @@ def _read_imports(files: Workspace, folder: str) -> frozenset[str] | None:
     return None if not readers or modules & _OTHER_ENGINES else readers
 
 
-def concerns_no_reader(rule: Rule, finding: Finding, used: frozenset[str] | None) -> bool:
+def is_for_other_readers(rule: Rule, finding: Finding, used: frozenset[str] | None) -> bool:
     """Tell whether a finding below error has effects on readers that a project does not use.
 
     Of rules that are not about motion, only remarks about simulators are judged: a file that

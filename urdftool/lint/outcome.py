@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -36,6 +37,8 @@ class Report:
         not_fixed: Findings whose fix cannot be applied to the source, with the reason.
         outside: Findings whose fix would change a file outside of the package, with both.
         unread_meshes: Why a mesh file may not be read, so that it was not checked, by its URI.
+        for_other_readers: Number of findings by rule that are left out, because they have effects
+            only on readers that the code of the project does not import.
         rows: Rows of the queries on which it depends; None if it is not in a cache.
     """
 
@@ -58,6 +61,7 @@ class Report:
     not_fixed: list[tuple[Finding, str]] = field(default_factory=list)
     outside: list[tuple[Finding, str]] = field(default_factory=list)
     unread_meshes: dict[str, str] = field(default_factory=dict)
+    for_other_readers: dict[str, int] = field(default_factory=dict)
     rows: Sequence[tuple[Any, ...]] | None = field(default=None, compare=False, repr=False)
 
     @property
@@ -116,6 +120,14 @@ class Outcome:
                 if uri not in uris:
                     uris.append(uri)
         return found
+
+    @property
+    def for_other_readers(self) -> dict[str, int]:
+        """Return the number of findings that are left out for other readers, by rule."""
+        left_out: Counter[str] = Counter()
+        for report in self.reports:
+            left_out.update(report.for_other_readers)
+        return dict(left_out)
 
     @property
     def not_checked(self) -> list[Report]:

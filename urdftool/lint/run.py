@@ -29,8 +29,8 @@ from ..source.packages import Packages
 from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
 from .imported_readers import (
-    concerns_no_reader,
     find_imported_readers,
+    is_for_other_readers,
     is_of_unmoved_robot,
 )
 from .merge import merge, sort_findings
@@ -311,14 +311,15 @@ def _check_description(
                 finding = _convert_finding(rule, problem, settings, targets, robot)
                 if finding is None:
                     continue
-                is_off = (
-                    problem.pedantic
-                    or is_of_unmoved_robot(rule, finding, robot)
-                    or concerns_no_reader(rule, finding, used)
-                )
-                if is_off and not settings.is_pedantic_on(rule.name):
-                    hidden.append(finding)
-                    continue
+                if not settings.is_pedantic_on(rule.name):
+                    is_off = problem.pedantic or is_of_unmoved_robot(rule, finding, robot)
+                    if not is_off and is_for_other_readers(rule, finding, used):
+                        count = report.for_other_readers.get(rule.name, 0)
+                        report.for_other_readers[rule.name] = count + 1
+                        is_off = True
+                    if is_off:
+                        hidden.append(finding)
+                        continue
                 findings.append(finding)
                 if finding.effects:
                     rejections.add(rule.name, rule.select_keys(problem.effects))

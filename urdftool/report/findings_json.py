@@ -44,6 +44,8 @@ def to_json(outcome: Outcome, fixes: Mapping[str, Any] | None = None) -> str:
         table["summary"]["unread_meshes"] = [
             {"path": path, "mesh": uri, "reason": reason} for path, uri, reason in unread
         ]
+    if outcome.for_other_readers:
+        table["summary"]["for_other_readers"] = outcome.for_other_readers
     if outcome.known:
         table["summary"]["baselined"] = len(outcome.known)
     if fixes is not None:

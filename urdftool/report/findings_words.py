@@ -11,6 +11,7 @@ from ..control_characters import escape_controls
 from ..extras import make_missing_error
 from ..finding import Finding
 from ..source.location import Call
+from .counted import format_count
 
 if TYPE_CHECKING:
     from ..lint.outcome import Outcome
@@ -88,6 +89,17 @@ def list_unread_meshes(outcome: Outcome) -> Iterator[str]:
         count, first = len(uris), escape_controls(uris[0])
         named = f"mesh '{first}'" if count == 1 else f"{count} meshes; the first, '{first}',"
         yield f"not checked: {named} {escape_controls(reason)}"
+
+
+def list_left_out(outcome: Outcome) -> Iterator[str]:
+    """Yield how many findings are left out, because no reader that they name is imported."""
+    count = sum(outcome.for_other_readers.values())
+    if count:
+        yield (
+            f"{format_count(count, 'finding')} left out, with effects only on readers that the "
+            "Python code of the project does not import; --extend-select pedantic shows "
+            f"{'it' if count == 1 else 'them'}"
+        )
 
 
 def list_rejections(outcome: Outcome) -> Iterator[str]:
