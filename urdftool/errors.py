@@ -109,6 +109,10 @@ class ModelError(UrdftoolError):
     """Error for a well-formed description that is not a usable robot."""
 
 
+class LimitError(ModelError):
+    """Error for a description that may be right: reading it exceeds a limit of urdftool."""
+
+
 class MeshError(UrdftoolError):
     """Error for a mesh that cannot be read or does not meet a requirement."""
 

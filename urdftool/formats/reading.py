@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..diagnostic import Severity
-from ..errors import ModelError
+from ..errors import LimitError, ModelError
 from ..finding import Finding
 from ..isolated import ProcessDied
 from ..limited import LimitExceeded, Limits
@@ -187,14 +187,15 @@ def report_limits(library: str, what: str, place: Place) -> Iterator[None]:
         place: Location in the description.
 
     Raises:
-        ModelError: It did.
+        LimitError: It exceeded them.
+        ModelError: It crashed.
     """
     try:
         yield
     except LimitExceeded as error:
         text = f"{library} needs more than {error.message} for the {what}, which is not read"
-        help_ = "simplify it, or pass --trust to lift the limits"
-        raise ModelError(f"{text}; {help_}", at=place) from None
+        help_ = "pass --trust to lift this limit of urdftool"
+        raise LimitError(f"{text}; {help_}", at=place) from None
     except ProcessDied as error:
         text = f"{library} crashes on the {what}"
         raise ModelError(text, at=place, notes=error.output) from None

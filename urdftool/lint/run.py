@@ -11,7 +11,7 @@ from typing import Any
 from ..collector import pause_collector
 from ..configuration import Configuration, find_configuration
 from ..diagnostic import Severity
-from ..errors import ModelError, SourceError, UrdftoolError, XmlError
+from ..errors import LimitError, ModelError, SourceError, UrdftoolError, XmlError
 from ..extras import find_missing_library
 from ..finding import Cause, Finding, Group
 from ..model.attached import TooManyAttached
@@ -129,6 +129,8 @@ def _check_variant(
         if options.read_other is not None and not file.path.endswith(_URDF_ENDINGS):
             try:
                 other = _read_other(file, options, configuration)
+            except LimitError:
+                raise
             except (SourceError, ModelError) as error:
                 rule = "not-well-formed" if isinstance(error, XmlError) else "unreadable-model"
                 report.stopped = error.message
