@@ -67,6 +67,29 @@ def test_a_message_that_is_not_json_is_one_line_and_the_server_goes_on():
     assert line.startswith("urdftool: Unable to handle message: JSONDecodeError")
 
 
+@pytest.mark.parametrize(
+    "params",
+    [
+        {"textDocument": {"uri": "file:///r.urdf"}, "position": {"line": "one", "character": 0}},
+        {"textDocument": {"uri": "file:///r.urdf"}, "position": {"line": -1, "character": 0}},
+        {"position": {"line": 0, "character": 0}},
+        {},
+    ],
+)
+def test_malformed_parameters_are_answered_with_an_error(tmp_path, params):
+    with Client(tmp_path) as client:
+        answer = client.request("textDocument/hover", **params)
+        assert answer["error"]["code"] == -32602
+        assert client.ask("textDocument/hover", **_at(tmp_path / "none.urdf")) is None
+
+
+def _at(path):
+    return {
+        "textDocument": {"uri": path.as_uri()},
+        "position": {"line": 0, "character": 0},
+    }
+
+
 def test_a_large_document_is_only_parsed(tmp_path, monkeypatch):
     for module in ("knowledge", "checks"):
         monkeypatch.setattr(f"urdftool.server.{module}.MOST_BYTES", 100)

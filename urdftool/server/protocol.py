@@ -11,7 +11,9 @@ from typing import Any
 from lsprotocol import converters
 from lsprotocol import types as lsp
 from pygls import uris
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol
 
 from .. import __version__
 from .moves import compare_texts, make_change
@@ -48,6 +50,23 @@ class ServerSettings:
     patience: float = PATIENCE
 
 
+class AnsweringProtocol(LanguageServerProtocol):
+    """Protocol that answers requests with malformed parameters, which pygls only logs."""
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        """Return the message of an object of JSON.
+
+        Raises:
+            JsonRpcException: It is malformed; a request is answered with "invalid params".
+        """
+        try:
+            return super().structure_message(data)
+        except JsonRpcException:
+            if "id" in data and "method" in data:
+                self._send_response(data["id"], error=JsonRpcInvalidParams().to_response_error())
+            raise
+
+
 class RobotServer(LanguageServer):
     """Language server of robot descriptions.
 
@@ -59,7 +78,7 @@ class RobotServer(LanguageServer):
 
     def __init__(self, settings: ServerSettings) -> None:
         """Create a server that answers what :func:`add_features` declares."""
-        super().__init__("urdftool", __version__)
+        super().__init__("urdftool", __version__, protocol_cls=AnsweringProtocol)
         self.settings = settings
         self.worker = WorkerProcess(self.log, settings.patience)
         self.publication = Publication()
