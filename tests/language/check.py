@@ -104,6 +104,7 @@ NAMES: tuple[tuple[str, str, str], ...] = (
     (r"rules/rule\.py", r"rule|full", "decorators, which name what they make of a function"),
     (r"inertia/solids\.py", r"[a-z_]+", "named by the solid; public"),
     (r"docs/conf\.py", r"setup", "named by Sphinx"),
+    (r"server/protocol\.py", r"structure_message", "named by pygls"),
     (r"rules/fix\.py", r"safe|unsafe", "make a proposal that is safe or unsafe"),
     (
         r"(?:terminal|console|answer_stream)\.py",
