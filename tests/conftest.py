@@ -166,7 +166,8 @@ def _engines_start_as_forks(monkeypatch):
     """
 
     def start(words, **how):
-        forks = "mujoco" in words[3].split(",") and "mujoco" in sys.modules and can_fork()
+        libraries = words[3].split(",") if len(words) > 3 else ()
+        forks = "mujoco" in libraries and "mujoco" in sys.modules and can_fork()
         return (ForkedPython if forks else subprocess.Popen)(words, **how)
 
     known = {name: getattr(subprocess, name) for name in ("PIPE", "TimeoutExpired")}

@@ -30,6 +30,7 @@ OPEN = (
         "mjcf.compiled",
         "mjcf.copied",
         "mjcf.declared_losses",
+        "mjcf.additions",
         "mjcf.verify",
     ),
     "usd.declared_losses",

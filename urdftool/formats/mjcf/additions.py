@@ -51,7 +51,11 @@ def list_added_dynamics(source: Robot, planned: Robot) -> Iterator[str]:
 
 def _list_added_sensors(source: Robot, planned: Robot) -> Iterator[str]:
     known = {sensor.name for sensor in source.mounted_sensors}
-    added = [sensor.name for sensor in planned.mounted_sensors if sensor.name not in known]
+    added = [
+        sensor.name
+        for sensor in planned.mounted_sensors
+        if not any(sensor.name == name or sensor.name.startswith(f"{name}_") for name in known)
+    ]  # one sensor of the source may be several: imu_gyro, imu_accelerometer
     if added:
         yield f"added: {len(added)} ('{added[0]}' and so on)"
 
