@@ -5,6 +5,9 @@ import json
 import pytest
 
 from urdftool.api.lint import check
+from urdftool.lint.imported_readers import find_imported_readers
+from urdftool.source.description import read_description
+from urdftool.workspace import Workspace
 
 ROBOT = """<robot name="cart">
   <link name="hand">
@@ -93,3 +96,26 @@ def test_the_last_lines_count_what_is_left_out(tmp_path, urdftool, variants):
     assert "for_other_readers" not in summary
     codes = [finding["rule"] for finding in json.loads(shown.out)["findings"]]
     assert left_out.keys() <= set(codes)
+
+
+def test_the_folder_of_an_installed_package_is_known_by_its_metadata(tmp_path):
+    module = tmp_path / "gym"
+    module.mkdir()
+    (module / "env.py").write_text("import pybullet\n")
+    (tmp_path / "gym-1.0.dist-info").mkdir()
+    (module / "cart.urdf").write_text(ROBOT)
+    assert "placeholder-inertia" in {one.code for one in check(module / "cart.urdf")}
+    (module / "__init__.py").write_text("")
+    assert "placeholder-inertia" not in {one.code for one in check(module / "cart.urdf")}
+
+
+def test_a_report_does_not_depend_on_the_folders_above(tmp_path):
+    folder = tmp_path / "data"
+    folder.mkdir()
+    (folder / "cart.urdf").write_text(ROBOT)
+    view = Workspace().with_record()
+    description = read_description(folder / "cart.urdf", workspace=view)
+    before = set(view.dependencies.stamps)
+    assert find_imported_readers(description, frozenset()) is None
+    asked = set(view.dependencies.stamps) - before
+    assert not [path for kind, path in asked if kind == "list"]

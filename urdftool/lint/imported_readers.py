@@ -68,16 +68,26 @@ def find_imported_readers(
         return None
     files = description.packages.files
     folder = Path(os.path.abspath(description.path)).parent
+    below: Path | None = None
     for place in list_above(folder, files):
-        if _is_packaged(files, place):
+        holds_module = below is not None and files.exists(below / "__init__.py")
+        below = place
+        if _is_packaged(files, place, holds_module):
             found = _read_imports(files, str(place))
             return None if found is None else found | targets
     return None
 
 
-def _is_packaged(files: Workspace, folder: Path) -> bool:
+def _is_packaged(files: Workspace, folder: Path, holds_module: bool) -> bool:
+    """Tell whether a folder is that of a Python project or of an installed package.
+
+    Only a folder with a module is listed: a report depends on what it lists, and is not kept if
+    another program writes a file there.
+    """
     if any(files.exists(folder / name) for name in _PACKAGING):
         return True
+    if not holds_module:
+        return False
     try:
         entries = files.list_folder(folder)
     except OSError:
