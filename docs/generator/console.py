@@ -30,7 +30,7 @@ BLOCK = re.compile(r"(?<=```console\n).*?(?=```)", re.DOTALL)
 FILE = re.compile(r"<!-- file: (\S+) -->\n\n```\w+\n(.*?)```", re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\([^)]*pictures/([^)/]+)\)")
 RUN = re.compile(r"<!-- run: (.*?) -->")
-TIME = re.compile(r" \(checked in \d+ s\)$", re.MULTILINE)
+TIME = re.compile(r" \(checked in [\d.]+ s\)$", re.MULTILINE)
 """The time that a command adds where it took long."""
 
 PROGRESS = re.compile(r"^(?:\d+ of \d+ [\w ]+, )?\d+ s(?:: .*)?\n", re.MULTILINE)

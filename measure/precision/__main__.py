@@ -82,7 +82,7 @@ earlier sample has, and that gave only 148 findings, by a sixth reader with a st
 cause in several findings counts as useful once and else as noise, and a finding about dynamics is
 noise in a package that computes kinematics only. The two samples share 36 findings. After them,
 findings were grouped, and those put off by default that concern no reader which the package
-imports, or that are about objects and scenes.
+imports, or that are about markers.
 """
 RULES = """\
 ## Rules with findings that were wrong

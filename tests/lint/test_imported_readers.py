@@ -72,8 +72,10 @@ def test_an_error_stays(tmp_path):
     assert "inertia-triangle-inequality" in _names(tmp_path, "import pybullet\n", robot=robot)
 
 
-def test_a_scene_is_not_told_about_inertias(tmp_path):
+def test_inertias_of_a_marker_are_off_and_those_of_a_single_body_are_not(tmp_path):
     robot = ROBOT.replace('type="revolute"', 'type="fixed"')
+    assert "placeholder-inertia" in _names(tmp_path, "", robot=robot)  # such as a drone
+    robot = robot.replace("collision>", "visual>")
     assert "placeholder-inertia" not in _names(tmp_path, "", robot=robot)
     robot = robot.replace('ixx="1"', 'ixx="9"')
     assert "inertia-triangle-inequality" in _names(tmp_path, "", robot=robot)

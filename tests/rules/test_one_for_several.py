@@ -128,4 +128,4 @@ def test_a_package_is_missing_once_for_a_repository(write, urdftool):
         write(f"{name}.urdf", f"<robot name='{name}'><link name='l'>{visual}</link></robot>")
     result = urdftool("lint", ".", "--select", "package-not-found", "--format", "concise")
     (line,) = (line for line in result.out.splitlines() if "lost_description" in line)
-    assert "'lost_description' is not found, so meshes of 3 robots were not checked" in line
+    assert "'lost_description' is not found, so the meshes of 3 places were not checked" in line

@@ -133,7 +133,12 @@ def is_for_other_readers(rule: Rule, finding: Finding, used: frozenset[str] | No
 
 
 def is_of_unmoved_robot(rule: Rule, finding: Finding, robot: Robot | None) -> bool:
-    """Tell whether a remark about motion concerns an object or a scene: no joint of it moves."""
+    """Tell whether a remark about motion is about a marker: no joint moves and nothing collides.
+
+    A single body with collision geometry, as a drone or an object to grasp, moves as a whole.
+    """
     if robot is None or not rule.of_motion or finding.severity is Severity.ERROR:
         return False
-    return bool(robot.links) and not robot.moving_joints
+    if not robot.links or robot.moving_joints:
+        return False
+    return not any(link.collisions for link in robot.links)

@@ -42,9 +42,9 @@ Arguments of the decorator control how findings are reported together:
 
 ``of_motion=True``
     The problem matters only for moving parts, such as an inertia that is too large: for links that
-    are fixed to the world, and for fixed joints, a warning becomes an info. Where no joint moves,
-    as in an object or a scene, it is off by default. Errors stay, because readers reject the robot
-    anyway.
+    are fixed to the world, and for fixed joints, a warning becomes an info. Where no joint moves
+    and nothing collides, as in a marker, it is off by default. Errors stay, because readers reject
+    the robot anyway.
 
 ``formats=ANY_FORMAT``
     The rule also applies to robots of other formats: it uses ``element`` of no part, and its
@@ -117,7 +117,7 @@ class Rule:
         group: Scope in which its findings are reported as one; None if each is reported.
         caused_by: Rules whose finding about the same element explains one of this rule.
         of_motion: Whether it matters only for moving parts: for a link that is fixed to the world,
-            or for a fixed joint, a warning is an info, and off by default where no joint moves.
+            or for a fixed joint, a warning is an info, and off by default for a marker.
         formats: Names of the formats to which it applies.
         evidence: What shows that the defect does harm, in addition to effects; empty if nothing.
         make_fix: Proposes changes for a problem, or None for cases that it does not fix; None if

@@ -20,13 +20,13 @@ _DEGREES = frozenset(map(float, (*range(30, 361, 30), *range(45, 361, 45))))
     effects={
         "urdfdom, gz, gazebo-classic": "take it as radians, without a message",
     },
-    pedantic="angles that are no usual ones in degrees, as of exporters that keep turns",
+    pedantic="angles that are not common in degrees, as of exporters that keep turns",
 )
 def rpy_in_degrees(robot: Robot, *, largest: float = 2 * math.pi + 0.01) -> Iterator[Problem]:
     """A rotation of an ``<origin>`` is more than one turn.
 
     Roll, pitch and yaw are in radians. 90 means 90 rad, which is the same rotation as 116.6°, so
-    the part has a wrong orientation. An angle that is no usual one in degrees is an info: some
+    the part has a wrong orientation. An angle that is not common in degrees is an info: some
     exporters do not reduce angles to one turn. ``largest`` [rad] is the largest angle that is not
     reported.
     """

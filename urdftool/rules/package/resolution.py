@@ -63,8 +63,8 @@ def package_not_found(
             hint="; ".join(f"searched {place}" for place in _shorten_places(uses[0].searched)),
             effects=(*_select_rviz_effect(uses), "drake", "pybullet (no such folder)"),
             alike=(name, meant),
-            group=f"package '{name}' is not found, so meshes of {{count}} robots were not checked; "
-            f"{remedy}",
+            group=f"package '{name}' is not found, so the meshes of {{count}} places were not "
+            f"checked; {remedy}",
         )
     severity = INFO if targets.isdisjoint(ROS) else WARNING
     yield from _report_assumed_packages(robot, description, severity)
@@ -95,7 +95,7 @@ def _report_assumed_packages(
             ),
             severity=severity,
             alike=(name,),
-            group=f"package '{name}' is not found, so meshes of {{count}} robots are read from "
+            group=f"package '{name}' is not found, so the meshes of {{count}} places are read from "
             "folders of that name, as PyBullet does; write relative paths",
         )
 

@@ -225,7 +225,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             severity=INFO,
             alike=kind,
             group=f"<{kind[1]}> does not belong in <{kind[0]}>; URDF readers ignore it "
-            "(in {count} robots)",
+            "(in {count} places)",
         )
 
 
