@@ -7,6 +7,7 @@ A dependency is a query with the stamp that its path had at the first query. The
 ``there`` whether an entry exists at a path; a broken symbolic link counts
 ``real``  the path without symbolic links
 ``list``  the names in a folder, and which of them are folders
+``code``  the Python files and the folders in a folder, as :func:`list_code` lists them
 ``env``   the value of an environment variable
 """
 
@@ -27,6 +28,10 @@ ABSENT = "-"
 _FRESH_NS = 2_000_000_000  # a newer file may change again without a change of its times; chosen
 _SHARED = 50  # larger sets are referenced by their users, not copied; chosen
 _WITHOUT_STAMP = ("env", "real")
+_NOT_SOURCE = frozenset(
+    ("__pycache__", "build", "dist", "node_modules", "install", "devel", "log", "site-packages")
+)
+"""Folders of what tools make or install."""
 
 
 class Dependencies:
@@ -85,7 +90,7 @@ class Dependencies:
         if self._real is None or self._real[0] != len(self.stamps):
             real = resolve_all(path for kind, path in self.stamps if kind != "env")
             files = set(real.values())
-            listed = {real[path] for kind, path in self.stamps if kind == "list"}
+            listed = {real[path] for kind, path in self.stamps if kind in ("list", "code")}
             self._real = len(self.stamps), files, listed
         return self._real[1:]
 
@@ -185,6 +190,39 @@ def _digest_listing(path: str) -> str:
     return sha256("".join(lines).encode("utf-8", "surrogateescape")).hexdigest()
 
 
+def list_code(path: str) -> tuple[list[str], list[str]]:
+    """Return the sorted names of the Python files and of the folders in a folder.
+
+    Hidden names, folders of what tools make or install, and virtual environments are left out:
+    what a test or a compiler writes there does not change which code a project has.
+
+    Raises:
+        OSError: The folder cannot be listed.
+    """
+    files, folders = [], []
+    with os.scandir(path) as entries:
+        for entry in entries:
+            if entry.name == "pyvenv.cfg":
+                return [], []
+            if entry.name.endswith(".py"):
+                files.append(entry.name)
+            elif (
+                not entry.name.startswith(".")
+                and entry.name not in _NOT_SOURCE
+                and entry.is_dir(follow_symlinks=False)
+            ):
+                folders.append(entry.name)
+    return sorted(files), sorted(folders)
+
+
+def _digest_code(path: str) -> str:
+    from hashlib import sha256
+
+    files, folders = list_code(path)
+    lines = "".join([f"{name}\0" for name in files] + [f"{name}/\0" for name in folders])
+    return sha256(lines.encode("utf-8", "surrogateescape")).hexdigest()
+
+
 def _digest_variable(name: str) -> str:
     return f"={os.environ[name]}" if name in os.environ else ABSENT
 
@@ -202,6 +240,7 @@ _ANSWERS: dict[str, Callable[[str], str]] = {
     "there": _read_existence,
     "real": os.path.realpath,
     "list": _digest_listing,
+    "code": _digest_code,
     "env": _digest_variable,
 }
 KINDS = frozenset(_ANSWERS)

@@ -21,7 +21,7 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Protocol, TypeVar, cast
 
-from .dependencies import Dependencies
+from .dependencies import Dependencies, list_code
 from .file_access import IRREGULAR, AccessRefused, is_irregular, is_stream
 
 if TYPE_CHECKING:
@@ -356,6 +356,17 @@ class Workspace:
         for name in folders:
             if name not in links:
                 yield from self.walk(os.path.join(folder, name))
+
+    def list_code(self, path: str | Path) -> tuple[list[str], list[str]]:
+        """Return the names of the Python files and of the folders in a folder that can hold some.
+
+        As :func:`urdftool.dependencies.list_code`; empty if the folder cannot be listed.
+        """
+        self.record("code", path)
+        try:
+            return list_code(os.fspath(path))
+        except OSError:
+            return [], []
 
     def list_matches(self, path: str | Path, pattern: str) -> list[Path]:
         """Return the sorted paths below a folder that match a pattern, as ``Path.glob``.

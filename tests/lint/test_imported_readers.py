@@ -5,6 +5,7 @@ import json
 import pytest
 
 from urdftool.api.lint import check
+from urdftool.dependencies import compute_answer
 from urdftool.lint.imported_readers import find_imported_readers
 from urdftool.source.description import read_description
 from urdftool.workspace import Workspace
@@ -121,3 +122,33 @@ def test_a_report_does_not_depend_on_the_folders_above(tmp_path):
     assert find_imported_readers(description, frozenset()) is None
     asked = set(view.dependencies.stamps) - before
     assert not [path for kind, path in asked if kind == "list"]
+
+
+def _find_readers(robot):
+    view = Workspace().with_record()
+    found = find_imported_readers(read_description(robot, workspace=view), frozenset())
+    return found, [one for one in view.dependencies.stamps if one[0] == "code"]
+
+
+def test_only_code_of_the_project_makes_a_report_old(tmp_path):
+    _names(tmp_path, "import pybullet\n")
+    robot = tmp_path / "data" / "cart.urdf"
+    found, asked = _find_readers(robot)
+    assert found == {"pybullet"}
+    before = [compute_answer(one) for one in asked]
+    for name in (".cache/a.py", "__pycache__/env.pyc", "build/b.py", "data/report.json"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("import mujoco\n")
+    assert _find_readers(robot) == (found, asked)
+    assert [compute_answer(one) for one in asked] == before
+    (tmp_path / "data" / "more.py").write_text("import mujoco\n")
+    assert [compute_answer(one) for one in asked] != before
+    assert _find_readers(robot)[0] == {"pybullet", "mujoco"}
+
+
+def test_code_of_a_virtual_environment_says_nothing(tmp_path):
+    _names(tmp_path, "import pybullet\n")
+    (tmp_path / "env").mkdir()
+    (tmp_path / "env" / "pyvenv.cfg").write_text("")
+    (tmp_path / "env" / "tool.py").write_text("import isaacgym\n")
+    assert _find_readers(tmp_path / "data" / "cart.urdf")[0] == {"pybullet"}

@@ -44,8 +44,8 @@ _PACKAGING = ("pyproject.toml", "setup.py", "PKG-INFO", ".git")
 _IMPORT = re.compile(rb"(?m)^[ \t]*(?:import|from)[ \t]+(\w+)")
 _KEEPS_INERTIA = b"URDF_USE_INERTIA_FROM_FILE"
 
-_FILES = 400
-"""Maximum number of Python files that are read; of more, none is. Chosen, no source."""
+_FILES = _FOLDERS = 400
+"""Maximum number of Python files and of folders; of more, none is read. Chosen, no source."""
 
 _SIMULATORS = frozenset(("gz", "gazebo-classic", "mujoco", "pybullet", "drake", "newton"))
 
@@ -97,14 +97,14 @@ def _is_packaged(files: Workspace, folder: Path, holds_module: bool) -> bool:
 
 @memoize_by_workspace
 def _read_imports(files: Workspace, folder: str) -> frozenset[str] | None:
-    paths = [
-        os.path.join(place, name)
-        for place, _, names in files.walk(folder)
-        for name in names
-        if name.endswith(".py")
-    ]
-    if len(paths) > _FILES:
-        return None
+    paths: list[str] = []
+    waiting = [folder]
+    for place in waiting:
+        if len(paths) > _FILES or len(waiting) > _FOLDERS:
+            return None
+        found, folders = files.list_code(place)
+        paths += (os.path.join(place, name) for name in found)
+        waiting += (os.path.join(place, name) for name in folders)
     modules: set[str] = set()
     for path in paths:
         try:
