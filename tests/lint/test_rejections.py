@@ -39,6 +39,7 @@ def test_the_last_lines_name_the_readers_that_reject(
 def test_readers_of_several_robots_are_counted(tmp_path, urdftool):
     for name, text in (("a", SOUND), ("b", MASSLESS), ("c", MASSLESS)):
         (tmp_path / f"{name}.urdf").write_text(text.replace('"r"', f'"{name}"'))
+    (tmp_path / "floor.xml").write_text("<mujoco><worldbody/></mujoco>")  # no robot
     err = urdftool("lint", tmp_path, "--no-cache", "-j", "1").err
     (line,) = (line for line in err.splitlines() if line.endswith("2 of 3 robots"))
     assert "mujoco" in line

@@ -109,12 +109,13 @@ def list_rejections(outcome: Outcome) -> Iterator[str]:
     only known effects of findings count.
     """
     rejected = [report for report in outcome.reports if report.rejected]
-    if len(outcome.reports) > 1:
+    robots = sum(not report.skipped for report in outcome.reports)
+    if robots > 1:
         counts = Counter(reader for report in rejected for reader in report.rejected)
         for count in sorted(set(counts.values()), reverse=True):
             readers = sorted(reader for reader in counts if counts[reader] == count)
             verb = "rejects" if len(readers) == 1 else "reject"
-            yield f"{', '.join(readers)} {verb} {count} of {len(outcome.reports)} robots"
+            yield f"{', '.join(readers)} {verb} {count} of {robots} robots"
         return
     for report in rejected:
         together: dict[tuple[str, ...], list[str]] = {}
