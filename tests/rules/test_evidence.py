@@ -18,11 +18,12 @@ def test_a_rule_on_by_default_has_evidence(rule):
 def test_a_rule_is_off_if_its_findings_were_never_useful(rule):
     """Three judged findings of which none is useful, and no reader that rejects the robot.
 
-    A rule may be on if the cases of it that were noise are off.
+    A rule may be on if the cases of it that were noise are off. Effects are those on readers of
+    URDF: a rule of other formats only states in its evidence that their readers reject the file.
     """
     verdicts = count_verdicts().get(rule.name, {})
     judged = sum(verdicts.values())
-    rejects = count_effects(rule)[1]
+    rejects = count_effects(rule)[1] or ("urdf" not in rule.formats and rule.evidence)
     assert not rule.default or judged < 3 or verdicts["useful"] or rejects or rule.pedantic
 
 

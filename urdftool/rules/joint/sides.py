@@ -167,6 +167,7 @@ def _find_asymmetric_ranges(robot: Robot, found: Sides, tolerance: float) -> Ite
             "keep the axis: the same command turns one of them in the opposite direction"
         ),
     },
+    pedantic="a pair of joints with symmetric limits that is alone of its kind, without wheels",
     formats=ANY_FORMAT,
 )
 def axis_against_others(robot: Robot) -> Iterator[Problem]:
@@ -179,7 +180,7 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
     robot if the limb has fewer than two: in some robots the axes of left and right are parallel, in
     others they are mirror images. Only axes of similar direction are compared, such as those across
     the robot, and wheels only with wheels. Asymmetric limits show the intended direction; such a
-    pair is not reported.
+    pair is not reported. With symmetric limits the sign is a convention unless it drives a wheel.
     """
     found = get_sides(robot)
     if found.normal is None:
@@ -259,6 +260,7 @@ def _report_single_pairs(robot: Robot, found: Sides) -> Iterator[Problem]:
             f"axis of joint '{joint.name}' is reversed relative to '{twin.name}', compared with "
             f"the pairs of {names}; check the sign of one axis",
             at=joint.axis or joint,
+            pedantic=not turn.wheel,
             data={"twin": twin.name},
         )
 

@@ -182,6 +182,7 @@ def turn_triangles(problem: Problem, context: FixContext) -> Proposal | None:
         "mujoco, pybullet, pinocchio": "load it",
         "rviz": "normalizes a normal of length 0",
     },
+    default=False,
     formats=URDF_AND_SDF,
 )
 def degenerate_triangles(
