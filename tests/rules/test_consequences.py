@@ -5,6 +5,7 @@ import subprocess
 
 import pytest
 
+from urdftool.api.lint import check
 from urdftool.lint.options import Options
 from urdftool.lint.run import check_file
 from urdftool.lint.settings import Settings
@@ -73,13 +74,30 @@ def test_an_srdf_of_another_name_is_used_and_so_a_warning(tmp_path):
 
 @pytest.mark.parametrize(
     ("rpy", "angle"),
-    [("0 0 0", "120°"), ("0 1.5708 0", "90°"), ("-1.5708 0 0", "90°")],
+    [
+        ("0 0 0", "120°, and looks 90° away from"),
+        ("0 1.5708 0", "90° about"),
+        ("-1.5708 0 0", "90° from"),
+    ],
 )
 def test_an_optical_frame_is_turned_by_the_angle_that_is_said(tmp_path, rpy, angle):
     text = _two(origin=f'rpy="{rpy}"').replace('"a"', '"eye"').replace('"b"', '"eye_optical"')
     (finding,) = _found(tmp_path, text, "optical-frame-orientation")
-    way = "about" if rpy == "0 1.5708 0" else "from"  # z of the second is the viewing direction
-    assert f"is rotated by {angle} {way} the viewing direction" in finding.message
+    assert f"is rotated by {angle} the viewing direction" in finding.message
+
+
+@pytest.mark.parametrize(
+    ("roll", "angle", "level", "by_default"),
+    [("-2.0044", 24.8, "info", 0), ("1.1372", 155.2, "warning", 1), ("-0.4", 67.1, "warning", 1)],
+)
+def test_a_camera_may_be_tilted_in_its_frame(tmp_path, roll, angle, level, by_default):
+    text = _two(origin=f'rpy="{roll} 0 -1.5708"').replace('"a"', '"eye"')
+    path, rule = tmp_path / "tilted.urdf", "optical-frame-orientation"
+    path.write_text(text.replace('"b"', '"eye_optical"'))
+    (finding,) = check(path, select=[rule])
+    assert finding.severity.label == level
+    assert finding.data["tilt"] == pytest.approx(angle, abs=0.1)
+    assert len([one for one in check(path) if one.code == rule]) == by_default
 
 
 @pytest.mark.parametrize("state", ["position", "velocity"])

@@ -129,8 +129,8 @@ STL = (
 @pytest.mark.parametrize(
     ("uri", "files", "effects", "right"),
     [
-        ("package:///a.stl", {"a.stl": STL}, [], "a.stl'"),
-        ("package://a.stl", {"a.stl": STL}, [], "a.stl'"),
+        ("package:///a.stl", {"a.stl": STL}, ["mujoco"], "a.stl'"),
+        ("package://a.stl", {"a.stl": STL}, ["mujoco"], "a.stl'"),
         ("package:///b.stl", {"a.stl": STL}, ["pybullet, drake", "mujoco"], "/meshes/FILE"),
     ],
 )

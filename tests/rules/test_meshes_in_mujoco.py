@@ -1,5 +1,6 @@
 """Which files of meshes MuJoCo opens, as its settings in a URDF say, compared with MuJoCo."""
 
+import contextlib
 from pathlib import Path
 
 import pytest
@@ -73,8 +74,22 @@ def test_who_finds_a_mesh(tmp_path, uri, compiler, severity, said, rejects):
     assert any(key.startswith("mujoco") for key in finding.effects) == rejects
 
 
-def test_effects_of_a_robot_whose_meshes_mujoco_does_not_find(tmp_path):
-    for compiler, loads in (("", True), ('meshdir="../meshes"', False)):
-        file = _write(tmp_path, "beside.stl", compiler)
-        (finding,) = (f for f in check(file) if f.code == "placeholder-inertia")
-        assert any("mujoco" in key for key in finding.effects) == loads
+@pytest.mark.parametrize(
+    ("uri", "compiler", "tag", "loads"),
+    [
+        ("beside.stl", "", "collision", True),
+        ("beside.stl", 'meshdir="../meshes"', "collision", False),
+        ("package://robot/meshes/there.stl", "", "collision", False),
+        ("package://robot/meshes/there.stl", "", "visual", True),
+        ("package://robot/meshes/there.stl", 'discardvisual="false"', "visual", False),
+        ("package://robot/urdf/beside.stl", 'strippath="true"', "collision", True),
+        ("file://beside.stl", "", "collision", False),
+    ],
+)
+def test_effects_of_a_robot_whose_meshes_mujoco_does_not_find(tmp_path, uri, compiler, tag, loads):
+    mujoco = pytest.importorskip("mujoco")
+    file = _write(tmp_path, uri, compiler, tag)
+    (finding,) = (f for f in check(file) if f.code == "placeholder-inertia")
+    assert any("mujoco" in key for key in finding.effects) == loads
+    with contextlib.nullcontext() if loads else pytest.raises(ValueError, match="opening file"):
+        mujoco.MjModel.from_xml_path(str(file))

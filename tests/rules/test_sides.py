@@ -122,3 +122,86 @@ def test_of_two_pairings_the_places_choose(write):
         ("left_right_jaw", "right_right_jaw"),
     }
     assert found.off == []
+
+
+def test_letters_of_a_series_are_no_sides(write):
+    letters = "abcdelrst"
+    parts = [
+        (f"left_hand_{letter}", "base", f"0.1 0.{n}1 0", "revolute", "0 0 1")
+        for n, letter in enumerate(letters)
+    ]
+    assert get_sides(load(write("hand.urdf", robot(*parts)))).pairs == []
+    named = [(f"hand_{side}", "base", f"0 {y} 0", "revolute", "0 0 1") for side, y in SIDES]
+    (pair,) = get_sides(load(write("hands.urdf", robot(*named)))).pairs
+    assert (pair.left.name, pair.right.name) == ("hand_l", "hand_r")
+
+
+SIDES = (("l", "0.2"), ("r", "-0.2"))
+
+HANDS = """<robot name="r"><link name="base"/>{links}
+{arms}</robot>"""
+ARM = """<link name="{0}_arm"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+<joint name="{0}_shoulder" type="revolute"><parent link="base"/><child link="{0}_arm"/>
+<origin xyz="0 {1} 0"/><axis xyz="0 1 0"/>
+<limit lower="{2}" upper="{3}" effort="1" velocity="1"/></joint>"""
+HAND = """<link name="{0}_grip"/><link name="{0}_finger"><visual><geometry><sphere radius="0.1"/>
+</geometry></visual></link>
+<joint name="{0}_hand" type="revolute"><parent link="{0}_arm"/><child link="{0}_grip"/>
+<origin xyz="0 {1} 0"/><axis xyz="1 0 0"/><limit lower="0" upper="1" effort="1" velocity="1"/>
+</joint>
+<joint name="{0}_curl" type="revolute"><parent link="{0}_arm"/><child link="{0}_finger"/>
+<origin xyz="0 {1} 0"/><axis xyz="0 1 0"/><limit lower="0" upper="1" effort="1" velocity="1"/>
+{2}</joint>"""
+
+
+@pytest.mark.parametrize("followed", [True, False])
+def test_the_opening_of_a_hand_is_no_limb(write, followed):
+    text = "".join(
+        ARM.format(side, y, -1, 2)
+        + HAND.format(side, y, f'<mimic joint="{side}_hand"/>' if followed else "")
+        + (f'<visual name="{side}"/>' if not followed else "")
+        for side, y in SIDES
+    )
+    if not followed:  # then the joint is one that moves a shape
+        shape = "<visual><geometry><sphere radius='0.1'/></geometry></visual></link>"
+        for side, _ in SIDES:
+            text = text.replace(f'<link name="{side}_grip"/>', f'<link name="{side}_grip">{shape}')
+            text = text.replace(f'<visual name="{side}"/>', "")
+    path = write("hands.urdf", HANDS.format(links="", arms=text))
+    found = check(path, select=["limits-not-mirrored"])
+    assert len(found) == (0 if followed else 1)
+
+
+@pytest.mark.parametrize(
+    ("right", "by_default", "count"),
+    [((-1, 2), 0, 0), ((-0.9, 2.1), 0, 1), ((-0.9, 2), 1, 1), ((-2, 1), 1, 1)],
+)
+def test_ranges_of_equal_width_are_a_calibration(write, right, by_default, count):
+    arms = ARM.format("left", 0.2, -1, 2) + ARM.format("right", -0.2, *right)
+    arms += ARM.format("left_leg", 0.1, -1, 1) + ARM.format("right_leg", -0.1, -1, 1)
+    path = write("arms.urdf", HANDS.format(links="", arms=arms))
+    for select, expected in ((None, by_default), (["limits-not-mirrored"], count)):
+        found = [f for f in check(path, select=select) if f.code == "limits-not-mirrored"]
+        assert len(found) == expected
+
+
+FACING = """<robot name="r"><link name="base"/>{0}</robot>"""
+MOUNT = """<link name="{0}_mount"/><joint name="{0}_fixed" type="fixed"><parent link="base"/>
+<child link="{0}_mount"/><origin xyz="0 {1} 0" rpy="0 0 {2}"/></joint>"""
+STEP = """<link name="{0}_{1}"/><joint name="{0}_{1}_joint" type="continuous">
+<parent link="{0}_{2}"/><child link="{0}_{1}"/><origin xyz="0 0.1 0.1"/><axis xyz="{3}"/></joint>"""
+
+
+@pytest.mark.parametrize("flip", [0, 1])
+def test_two_equal_arms_that_face_each_other_are_copies(write, flip):
+    steps = (("waist", "mount", 2), ("shoulder", "waist", 0), ("elbow", "shoulder", 0))
+    text = MOUNT.format("left", 0.5, 3.14159265) + MOUNT.format("right", -0.5, 0)
+    for side in ("left", "right"):
+        for name, above, axis in steps:
+            vector = [0, 0, 0]
+            vector[axis] = -1 if flip and side == "right" and name == "elbow" else 1
+            text += STEP.format(side, name, above, " ".join(map(str, vector)))
+    path = write("facing.urdf", FACING.format(text))
+    found = check(path, select=["axis-against-others"])
+    assert get_sides(load(path)).normal is not None
+    assert len(found) == flip

@@ -14,7 +14,7 @@ from ..model.mesh_formats import find_rejecting_readers, get_suffix
 from ..rules.gazebo.lumped_model import find_kept_links, is_named_as_link
 from ..rules.inertia.presence import has_bare_moved_body
 from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
-from ..rules.mujoco import find_lost_in_mujoco
+from ..rules.mujoco import find_rejected_by_mujoco
 from ..rules.rule import GAZEBO
 
 _THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit", "check_urdf")
@@ -29,6 +29,7 @@ _OF_FILES = (
     "malformed-uri",
     "package-not-found",
     "absolute-path",
+    "package-uri-unresolvable",
     "wrong-package-in-uri",
     "unsupported-uri-scheme",
     "mesh-without-filename",
@@ -80,7 +81,7 @@ class Rejections:
         if ("obj", True) in formats and _has_flat_first_object(robot):
             self._by_reader.setdefault("mujoco", set())
         source = robot.source
-        if formats and source is not None and find_lost_in_mujoco(robot, source):
+        if formats and source is not None and find_rejected_by_mujoco(robot, source):
             self._by_reader.setdefault("mujoco", set()).update(_OF_FILES)
         for ending, collides in formats:
             for reader in find_rejecting_readers(ending, collides):

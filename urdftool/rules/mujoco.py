@@ -97,11 +97,10 @@ def is_found_by_mujoco(use: MeshUse, folder: MeshFolder, description: Descriptio
     return path is not None and use.workspace.is_file(path)
 
 
-def find_lost_in_mujoco(robot: Robot, description: Description) -> list[MeshUse]:
-    """Find the meshes whose file MuJoCo opens and does not find.
+def find_rejected_by_mujoco(robot: Robot, description: Description) -> list[MeshUse]:
+    """Find the meshes for which MuJoCo rejects the robot: it opens them and finds no file.
 
-    A URI with a scheme counts only if its file is known to be missing, or its package is a folder
-    that only PyBullet takes as one: who loads another robot replaces the scheme by a path first.
+    These include every URI with a scheme, even if its file exists (run with MuJoCo 4.0).
     """
     folder, keeps = read_mesh_folder(robot), keeps_visuals(robot)
     return [
@@ -113,12 +112,23 @@ def find_lost_in_mujoco(robot: Robot, description: Description) -> list[MeshUse]
         and "${" not in use.uri
         and "$(" not in use.uri
         and not is_found_by_mujoco(use, folder, description)
-        and (
-            "://" not in use.uri
-            or folder.strippath
-            or (use.path and not use.exists)
-            or get_assumed_package(use, description)
-        )
+    ]
+
+
+def find_lost_in_mujoco(robot: Robot, description: Description) -> list[MeshUse]:
+    """Find the meshes whose file MuJoCo would not find without their scheme, either.
+
+    A URI with a scheme counts only if its file is known to be missing, or its package is a folder
+    that only PyBullet takes as one.
+    """
+    strips = read_mesh_folder(robot).strippath
+    return [
+        use
+        for use in find_rejected_by_mujoco(robot, description)
+        if "://" not in use.uri
+        or strips
+        or (use.path and not use.exists)
+        or get_assumed_package(use, description)
     ]
 
 

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 from ..model.elements import Joint, Link, Robot, Vector
 from ..model.kinematics import get_zero_poses
-from ..model.pose import Pose, make_pose, rotate
+from ..model.pose import Pose, compute_dot, make_pose, rotate
+from .joint.idle import is_coordinate
 
 _PAIRS = (
     *(("left", "right"), ("l", "r")),
@@ -21,6 +22,10 @@ _OTHER = {shape(left): shape(right) for left, right in reversed(_PAIRS) for shap
 _BACK = {right: left for left, right in _OTHER.items()}
 _WORDS = "|".join(sorted({*_OTHER, *_BACK}, key=len, reverse=True))
 _WORD = re.compile(rf"(?<![a-zA-Z])(?:{_WORDS})(?![a-z])|(?<=[a-z])(?:Left|Right|L|R)(?![a-z])")
+_LETTERS = frozenset("adegijknopqst")
+"""Letters that name no side and no end, such as the front: they show a series."""
+_SERIES = 3
+"""Links whose names differ in such a letter, from which on l and r are letters, too. Chosen."""
 _END = re.compile(r"(?i)front|rear|back|hind|middle|mid|[flrhbm]{1,2}(?![a-z])|left|right")
 
 
@@ -29,10 +34,12 @@ def find_twins(name: str, names: dict[str, Link] | dict[str, Joint]) -> list[str
 
     A name with two side words has several: front_leftL may be the mirror image of front_rightR.
     """
-    matches = list(_WORD.finditer(name))
+    matches = _find_words(name, names)
     found: list[str] = []
     if len(matches) > 1:  # front_leftL: both words are swapped, front_rightR
-        all_turned = _WORD.sub(lambda match: _OTHER.get(match[0]) or _BACK[match[0]], name)
+        all_turned = name
+        for match in reversed(matches):
+            all_turned = _swap_side(all_turned, match)
         if all_turned in names:
             if matches[0][0] not in _OTHER:
                 return []
@@ -52,10 +59,25 @@ def is_clear(name: str, names: dict[str, Link]) -> bool:
     """
     words = [
         match
-        for match in _WORD.finditer(name)
+        for match in _find_words(name, names)
         if not name[match.end() : match.end() + 1].isalpha() or _swap_side(name, match) in names
     ]
     return len(words) < 2
+
+
+def _find_words(name: str, names: dict[str, Link] | dict[str, Joint]) -> list[re.Match[str]]:
+    """Find the side words of a name, without letters of a series such as ``hand_a … hand_t``."""
+    return [match for match in _WORD.finditer(name) if not _is_of_series(name, match, names)]
+
+
+def _is_of_series(
+    name: str, match: re.Match[str], names: dict[str, Link] | dict[str, Joint]
+) -> bool:
+    if len(match[0]) > 1:
+        return False
+    case = str.upper if match[0].isupper() else str.lower
+    others = (name[: match.start()] + case(one) + name[match.end() :] for one in _LETTERS)
+    return sum(other in names for other in others) >= _SERIES
 
 
 def _swap_side(name: str, match: re.Match[str]) -> str:
@@ -177,9 +199,9 @@ class Sides:
     def is_mirrored_at_equal_positions(self, pair: Pair) -> bool | None:
         """Tell whether the two joints mirror each other at equal, not at opposite positions.
 
-        None if one has no axis, or if the axes are not mirror images.
+        None if one has no axis, if the axes are not mirror images, or if the limb is a copy.
         """
-        if self.normal is None:
+        if self.normal is None or self.compare_copies(pair) is not None:
             return None
         one, other = (
             self._compute_axis(link, joint)
@@ -196,6 +218,30 @@ class Sides:
         # a rotation axis is a pseudovector: mirrored and reversed
         return (product > 0) == (pair.left_joint.type == "prismatic")
 
+    def compare_copies(self, pair: Pair) -> float | None:
+        """Compare the axes of two joints that are copies below parents that are turned by 180°.
+
+        Two equal arms that face each other are so: no plane mirrors them.
+
+        Returns:
+            1 for equal axes, -1 for opposite ones; None if they are no such copies.
+        """
+        left, right = pair.left_joint, pair.right_joint
+        one, other = self.poses.get(left.parent), self.poses.get(right.parent)
+        if left.parent == right.parent or one is None or other is None:
+            return None
+        # the trace of a rotation is 1 + 2 cos(angle)
+        if sum(map(compute_dot, one.rotation, other.rotation)) > _TURNED:
+            return None
+        origins = zip(_get_origin(left), _get_origin(right), strict=True)
+        if any(math.dist(a, b) > _COPIED for a, b in origins):
+            return None
+        axis, image = _get_axis(left), _get_axis(right)
+        for sign in (1.0, -1.0):
+            if math.dist(axis, [sign * value for value in image]) <= _COPIED:
+                return sign
+        return None
+
     def get_axis(self, link: Link, joint: Joint) -> Vector | None:
         """Get the axis of a joint in the root frame, of unit length."""
         return self._compute_axis(link, joint)
@@ -203,12 +249,27 @@ class Sides:
     def _compute_axis(self, link: Link, joint: Joint) -> Vector | None:
         if link.name not in self.poses:
             return None
-        axis = joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+        axis = _get_axis(joint)
         length = math.hypot(*axis)
         if not length:
             return None
         x, y, z = rotate(self.poses[link.name].rotation, axis)
         return x / length, y / length, z / length
+
+
+_TURNED = -0.999
+"""Trace of the rotation between two frames below which it is a turn of 180°. Chosen, no source."""
+_COPIED = 1e-4
+"""Largest difference of the origins and axes of copied joints [m, rad, 1]. Chosen, no source."""
+
+
+def _get_axis(joint: Joint) -> Vector:
+    return joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0)
+
+
+def _get_origin(joint: Joint) -> tuple[Vector, Vector]:
+    none = (0.0, 0.0, 0.0)
+    return (none, none) if joint.origin is None else (joint.origin.xyz, joint.origin.rpy)
 
 
 def map_twin_links(robot: Robot) -> dict[str, str]:
@@ -244,6 +305,8 @@ def _find_pairs(robot: Robot) -> Iterator[Pair]:
     for name, other in twins.items():
         left, right = robot.tree.get_parent_joint(name), robot.tree.get_parent_joint(other)
         if left is None or right is None or left.type != right.type:
+            continue
+        if is_coordinate(robot, left) and is_coordinate(robot, right):
             continue
         if left.parent == right.parent or twins.get(left.parent) == right.parent:
             yield Pair(links[name], links[other], left, right)

@@ -30,7 +30,14 @@ from ..reading import (
     open_description,
     report_limits,
 )
-from .read_compile import LIMITS, Compiled, compile_text, import_library
+from .read_compile import (
+    FOR_FILES,
+    LIMITS,
+    MOST_MEMORY,
+    Compiled,
+    compile_text,
+    import_library,
+)
 from .read_context import Context
 from .read_extras import add_extras
 from .read_files import check_files
@@ -132,7 +139,7 @@ def _compile(expanded: Expanded, workspace: Workspace, limits: Limits) -> Compil
         compiled, read = call_with_limits(
             compile_text,
             *arguments,
-            limits=choose_limits(limits, workspace),
+            limits=choose_limits(_add_memory(limits, folder, paths, workspace), workspace),
             prepare=import_library,
         )
     if workspace.dependencies is not None:
@@ -143,3 +150,14 @@ def _compile(expanded: Expanded, workspace: Workspace, limits: Limits) -> Compil
         at = expanded.get_element_at(compiled.error_line).place
         raise ModelError(f"MuJoCo does not compile the model: {compiled.error}", at=at)
     return compiled
+
+
+def _add_memory(limits: Limits, folder: str, paths: dict[str, str], workspace: Workspace) -> Limits:
+    """Return limits with memory for the files of a model."""
+    if limits.memory is None:
+        return limits
+    files = {os.path.join(folder, path) for path in paths.values()}
+    size = sum(workspace.get_size(path) or 0 for path in files)
+    return limits._replace(
+        memory=max(limits.memory, min(MOST_MEMORY, limits.memory + FOR_FILES * size))
+    )

@@ -24,12 +24,25 @@ from .read_native_table import KINDS
 Row = dict[str, Any]
 
 LIMITS = Limits(time=300.0, processor=15.0, memory=640 << 20)
-"""Limits of a compilation. Chosen so that a command stays below 20 s and 1 GiB; no source."""
+"""Limits of a compilation. Chosen so that a command stays below 20 s and 1 GiB; no source.
+
+Files get more memory, by ``FOR_FILES``.
+"""
+
+FOR_FILES = 8
+"""Memory for each byte of the files of a model [bytes]; two models with 26 and 36 MB of meshes need
+up to 24 with all else. Chosen."""
+
+MOST_MEMORY = 1 << 30
+"""Maximum memory of a compilation [bytes]. Chosen, no source."""
 
 _LINE = re.compile(r"line\D{0,3}(\d+)", re.IGNORECASE)
 
-_NO_MEMORY = re.compile("allocate memory|unknown exception")
-"""Errors of MuJoCo, and of its bindings for exceptions of C++, when memory is exhausted."""
+_NO_MEMORY = re.compile("allocate memory")
+"""Error of MuJoCo when memory is exhausted, with or without the element that it was for."""
+
+_NO_REASON = re.compile("unknown exception")
+"""Error of MuJoCo's bindings for exceptions of C++, without a line when memory is exhausted."""
 
 _NO_MEMORY_FOR_IMAGE = re.compile("PNG file.*memory allocation failed")
 """Error of MuJoCo for an image, also if it names the line of the texture."""
@@ -113,7 +126,8 @@ def _compile(
     except (ValueError, RuntimeError, mujoco.FatalError) as error:
         said = str(error)
         line = _LINE.search(said)
-        if _NO_MEMORY_FOR_IMAGE.search(said) or (_NO_MEMORY.search(said) and not line):
+        exhausted = _NO_MEMORY_FOR_IMAGE.search(said) or _NO_MEMORY.search(said)
+        if exhausted or (_NO_REASON.search(said) and not line):
             raise MemoryError from None
         reason = " ".join(_LINE.sub("", said).split()).strip(" ,")
         for name in set(_ASSET.findall(reason)):

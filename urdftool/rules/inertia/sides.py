@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from ...mechanics.spatial_inertia import SpatialInertia, combine_links
 from ...mechanics.tensor import (
@@ -14,6 +15,7 @@ from ...mechanics.tensor import (
 )
 from ...model.attached import find_attached_links
 from ...model.elements import Link, Robot, Vector
+from ...model.part import Part
 from ...model.pose import compute_norm, rotate, transpose
 from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..mesh.link_extents import get_extents
@@ -32,6 +34,7 @@ _CHECKING = "gz, gazebo-classic, mujoco, drake"
         "pybullet": "takes the two as written",
     },
     of_motion=True,
+    group="robot",
     caused_by=(
         *("zero-mass", "zero-inertia", "singular-inertia", "placeholder-inertia"),
         *("inertia-component-typo", "inertia-off-by-power-of-ten", "inertia-exceeds-geometry"),
@@ -57,59 +60,107 @@ def left_right_asymmetry(
     ``inertia_difference`` are the tolerated relative differences, and ``least_distance`` [m] the
     smallest difference of two centers of mass that is reported. A mass that is ``certain`` times
     the other is a warning. Parts of rigid bodies that
-    mirror each other as a whole are not reported.
+    mirror each other as a whole are not reported. One finding names all links of a robot.
     """
+    tolerances = mass_difference, com_difference, inertia_difference
+    found = [
+        (link, other, difference)
+        for link, other in _list_unlike_bodies(robot, tolerances)
+        if (difference := _compare(robot, link, other, tolerances, least_distance)) is not None
+    ]
+    keys = [_select_readers(link, other, difference) for link, other, difference in found]
+    shared = [key for key in keys[0] if all(key in each for each in keys)] if keys else []
+    for link, other, difference in found:
+        masses = link.mass, other.mass
+        yield Problem(
+            other,
+            difference.message,
+            at=difference.at,
+            data={"twin": link.name, **difference.data},
+            severity=WARNING
+            if difference.of == "mass" and max(masses) >= certain * min(masses)
+            else None,
+            effects=shared,
+            group="{count} links differ from their mirror images in mass, center of mass or "
+            f"inertia, first: {difference.message}; links: {{names}}",
+        )
+
+
+class _Difference(NamedTuple):
+    """The first difference of a link from its mirror image.
+
+    Attributes:
+        of: ``mass``, ``center`` or ``moments``.
+        message: Sentence about it.
+        at: Its place in the right link.
+        data: Values for other programs.
+    """
+
+    of: str
+    message: str
+    at: Part
+    data: dict[str, float]
+
+
+def _list_unlike_bodies(
+    robot: Robot, tolerances: tuple[float, float, float]
+) -> Iterator[tuple[Link, Link]]:
+    """Find links with a mass and their mirror images, unless their rigid bodies are alike."""
     twins = map_twin_links(robot)
     for link in robot.links:
         other = robot.link.get(twins.get(link.name, ""))
-        if other is None or link.inertial is None or other.inertial is None:
-            continue
-        if link.mass <= 0 or other.mass <= 0:
+        if other is None or min(link.mass, other.mass) <= 0:
             continue
         bodies = _compute_bodies(robot, link, other)
-        if bodies is not None and not (
-            _is_different(bodies[0].mass, bodies[1].mass, mass_difference)
-            or _is_different(
-                compute_norm(bodies[0].com), compute_norm(bodies[1].com), com_difference
-            )
-            or _is_different(_trace(bodies[0]), _trace(bodies[1]), inertia_difference)
-        ):
-            continue  # their rigid bodies mirror each other
-        masses = link.mass, other.mass
-        if _is_different(*masses, mass_difference):
-            yield Problem(
-                other,
-                f"mass of link '{other.name}' is {other.mass:g} kg, but that of its mirror image "
-                f"'{link.name}' is {link.mass:g} kg; make them equal",
-                at=other.inertial,
-                data={"twin": link.name, "mass": other.mass, "mass_of_twin": link.mass},
-                severity=WARNING if max(masses) >= certain * min(masses) else None,
-                effects=[*_select_readers(link, other), "pybullet"],
-            )
+        if bodies is None:
+            yield link, other
             continue
-        here, there = _compute_com_distance(link), _compute_com_distance(other)
-        is_far = _is_different(here, there, com_difference) and abs(here - there) > least_distance
-        if is_far and not _are_mirrored_in_root(get_sides(robot), link, other):
-            yield Problem(
-                other,
-                f"center of mass of link '{other.name}' is {there:.3g} m from its frame, but that "
-                f"of its mirror image '{link.name}' {here:.3g} m; make the distances equal",
-                at=other.inertial.origin or other.inertial,
-                data={"twin": link.name, "distance": there, "distance_of_twin": here},
-                effects=[*_select_readers(link, other), "pybullet"],
-            )
-            continue
-        if not (_has_moments(link) and _has_moments(other)):
-            continue  # zero-inertia and others report it
-        if _is_different(_spread(link), _spread(other), inertia_difference):
-            yield Problem(
-                other,
-                f"principal moments of inertia of link '{other.name}', in ascending order, are "
-                f"{_compute_factors(other, link)} times those of its mirror image '{link.name}'",
-                at=other.inertial.inertia or other.inertial,
-                data={"twin": link.name},
-                effects=_select_readers(link, other),
-            )
+        values = [(body.mass, compute_norm(body.com), _trace(body)) for body in bodies]
+        if any(map(_is_different, *values, tolerances)):
+            yield link, other
+
+
+def _compare(
+    robot: Robot,
+    link: Link,
+    other: Link,
+    tolerances: tuple[float, float, float],
+    least_distance: float,
+) -> _Difference | None:
+    """Compare a link with its mirror image: the first difference above a tolerance, or None."""
+    if link.inertial is None or other.inertial is None:
+        return None
+    of_mass, of_com, of_inertia = tolerances
+    if _is_different(link.mass, other.mass, of_mass):
+        return _Difference(
+            "mass",
+            f"mass of link '{other.name}' is {other.mass:g} kg, but that of its mirror image "
+            f"'{link.name}' is {link.mass:g} kg; make them equal",
+            other.inertial,
+            {"mass": other.mass, "mass_of_twin": link.mass},
+        )
+    here, there = _compute_com_distance(link), _compute_com_distance(other)
+    is_far = _is_different(here, there, of_com) and abs(here - there) > least_distance
+    if is_far and not _are_mirrored_in_root(get_sides(robot), link, other):
+        return _Difference(
+            "center",
+            f"center of mass of link '{other.name}' is {there:.3g} m from its frame, but that "
+            f"of its mirror image '{link.name}' {here:.3g} m; make the distances equal",
+            other.inertial.origin or other.inertial,
+            {"distance": there, "distance_of_twin": here},
+        )
+    # zero-inertia and others report moments that are none
+    if not (_has_moments(link) and _has_moments(other)):
+        return None
+    if _is_different(_spread(link), _spread(other), of_inertia):
+        return _Difference(
+            "moments",
+            f"principal moments of inertia of link '{other.name}', in ascending order, are "
+            f"{_compute_factors(other, link)} times those of its mirror image '{link.name}'",
+            other.inertial.inertia or other.inertial,
+            {},
+        )
+    return None
 
 
 def _are_mirrored_in_root(sides: Sides, link: Link, other: Link) -> bool:
@@ -150,15 +201,18 @@ def _compute_moments(link: Link) -> Vector:
     return compute_principal_moments(link.inertial.inertia.six)
 
 
-def _select_readers(link: Link, other: Link) -> list[str]:
-    """Get the keys of effects for the readers that take the tensors of two links as written."""
+def _select_readers(link: Link, other: Link, difference: _Difference) -> list[str]:
+    """Get the keys of effects for the readers that take a difference as written.
+
+    PyBullet computes the moments itself.
+    """
     accepted = all(
         one.inertial is not None
         and one.inertial.inertia is not None
         and is_accepted(one.inertial.inertia.six)
         for one in (link, other)
     )
-    return [*[_CHECKING] * accepted, "pinocchio"]
+    return [*[_CHECKING] * accepted, "pinocchio", *["pybullet"] * (difference.of != "moments")]
 
 
 def _has_moments(link: Link) -> bool:

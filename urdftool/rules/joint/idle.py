@@ -21,6 +21,14 @@ def moves_nothing(robot: Robot, joint: Joint, most: float = SLIGHT) -> bool:
     return bare and sum(link.mass for link in links) <= most
 
 
+def is_coordinate(robot: Robot, joint: Joint) -> bool:
+    """Tell whether a joint moves nothing, and others mimic it: such as the opening of a hand."""
+    followed = any(
+        other.mimic is not None and other.mimic.joint == joint.name for other in robot.joints
+    )
+    return followed and moves_nothing(robot, joint)
+
+
 def is_dummy(robot: Robot, joint: Joint) -> bool:
     """Tell whether a joint is named as a dummy, and moves nothing.
 

@@ -65,6 +65,7 @@ def _has_the_same_origin(pair: Pair) -> bool:
             "keep the two ranges as written"
         ),
     },
+    pedantic="ranges of equal width, which differ in where the zero is",
     formats=ANY_FORMAT,
 )
 def limits_not_mirrored(
@@ -79,13 +80,16 @@ def limits_not_mirrored(
     whose range has all positions that its leader asks of it. ``tolerance``
     [rad or m] is the difference that is ignored. More than ``together`` such joints are one
     finding, those with a wrong sign apart from the others, whose mirrored ranges are written.
+    Two ranges of equal width differ only in the zero of a joint, usually by a calibration.
     """
     found = get_sides(robot)
     if found.normal is None:
         return
-    unlike = list(_find_asymmetric_ranges(robot, found, tolerance))
-    for sign in (True, False):
-        yield from _report_ranges([one for one in unlike if one.has_wrong_sign is sign], together)
+    kinds: dict[tuple[bool, bool], list[_Unlike]] = {}
+    for one in _find_asymmetric_ranges(robot, found, tolerance):
+        kinds.setdefault((one.has_wrong_sign, bool(one.shift)), []).append(one)
+    for unlike in kinds.values():
+        yield from _report_ranges(unlike, together)
 
 
 class _Unlike(NamedTuple):
@@ -97,6 +101,8 @@ class _Unlike(NamedTuple):
     right: tuple[float, float]
     has_wrong_sign: bool
     """Whether the other sign of the axis makes the ranges symmetric."""
+    shift: float
+    """Displacement of a range that is as wide [rad or m]; 0 if the widths differ."""
 
 
 def _report_ranges(unlike: list[_Unlike], together: float) -> Iterator[Problem]:
@@ -105,6 +111,8 @@ def _report_ranges(unlike: list[_Unlike], together: float) -> Iterator[Problem]:
     for one in unlike[:1] if many else unlike:
         joint, (low, high) = one.pair.right_joint, one.expected
         what = f"the mirrored range is {low:g} to {high:g}"
+        if one.shift:
+            what += f", as wide and displaced by {one.shift:.3g}"
         if one.has_wrong_sign:
             what = "its axis or its limits have the wrong sign"
         message = (
@@ -121,7 +129,7 @@ def _report_ranges(unlike: list[_Unlike], together: float) -> Iterator[Problem]:
             ]
             message += f"; also {join_some(shown, 'joints')}"
         data = {"twin": one.pair.left_joint.name, "mirrored": list(one.expected)}
-        yield Problem(joint, message, at=joint.limit, data=data)
+        yield Problem(joint, message, at=joint.limit, data=data, pedantic=bool(one.shift))
 
 
 _GRIPPER = re.compile(r"gripper|finger|thumb|knuckle", re.IGNORECASE)
@@ -157,7 +165,10 @@ def _find_asymmetric_ranges(robot: Robot, found: Sides, tolerance: float) -> Ite
             continue
         if _is_near(right, left, tolerance) and _GRIPPER.search(pair.right_joint.name):
             continue
-        yield _Unlike(pair, expected, right, _is_near(right, other, tolerance))
+        wrong = _is_near(right, other, tolerance)
+        shifts = [mine - its for mine, its in zip(right, expected, strict=True)]
+        shifted = not wrong and abs(shifts[1] - shifts[0]) <= 0.1 * tolerance
+        yield _Unlike(pair, expected, right, wrong, sum(shifts) / 2 if shifted else 0.0)
 
 
 @rule(
@@ -211,6 +222,22 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
                 data={"twin": twin.name},
             )
     yield from _report_single_pairs(robot, found)
+    yield from _report_reversed_copies(found)
+
+
+def _report_reversed_copies(found: Sides) -> Iterator[Problem]:
+    """Report joints of copied limbs whose axes are opposite, unlike most axes of these limbs."""
+    copies = [(one, pair) for pair in found.pairs if (one := found.compare_copies(pair))]
+    unlike = [pair for sign, pair in copies if sign < 0]
+    if 2 * len(unlike) < len(copies):
+        for left, right in ((pair.left_joint, pair.right_joint) for pair in unlike):
+            yield Problem(
+                right,
+                f"axis of joint '{right.name}' is reversed relative to '{left.name}', but the two "
+                "limbs are copies; check the sign of one axis",
+                at=right.axis or right,
+                data={"twin": left.name},
+            )
 
 
 class _AxisPair(NamedTuple):

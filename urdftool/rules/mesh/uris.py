@@ -206,14 +206,17 @@ def malformed_uri(robot: Robot, description: Description) -> Iterator[Problem]:
                 severity=INFO if slashes else WARNING if passes and named else ERROR,
                 data={"uri": use.uri, "defect": wrong.defect},
                 alike=wrong.defect,
-                effects=[] if passes else ["pybullet, drake", *["mujoco"] * lost],
+                effects=[
+                    *["pybullet, drake"] * (not passes),
+                    *["mujoco"] * (lost and (beside or not passes)),
+                ],
             )
 
 
 def _is_beside(use: MeshUse, description: Description) -> bool:
     """Tell whether the path of a URI is a file from the folder of the description on.
 
-    PyBullet and MuJoCo open ``package:///arm.stl`` so.
+    PyBullet opens ``package:///arm.stl`` so; MuJoCo 4.0 does not.
     """
     inside = use.uri.partition("://")[2].lstrip("/")
     return bool(inside) and use.workspace.is_file(description.packages.file.parent / inside)

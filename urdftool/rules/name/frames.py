@@ -42,6 +42,7 @@ def missing_base_link(robot: Robot) -> Iterator[Problem]:
             "about the viewing direction"
         ),
     },
+    pedantic="frames that look less than 45° away, as of a camera that is tilted in its frame",
 )
 def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Iterator[Problem]:
     """An optical frame has a wrong orientation relative to its camera's frame.
@@ -76,15 +77,33 @@ def optical_frame_orientation(robot: Robot, *, tolerance: float = 0.01) -> Itera
             angle = math.degrees(math.acos(max(-1.0, min(1.0, (turns - 1) / 2))))
             if looks_ahead and angle > 179:
                 continue  # mounted upside down in the camera's frame
-            way = "about the viewing direction" if looks_ahead else "from the viewing direction"
+            tilt = math.degrees(math.acos(max(-1.0, min(1.0, rotation[0][2]))))
+            is_tilted = not looks_ahead and tilt < TILT
+            remedy = 'write rpy="-1.5708 0 -1.5708"'
             yield Problem(
                 joint,
-                f"optical frame '{joint.child}' is rotated by {angle:.3g}° {way} of "
-                f"'{joint.parent}'; write rpy=\"-1.5708 0 -1.5708\"",
+                f"optical frame '{joint.child}' is {_describe_turn(angle, tilt, looks_ahead)} of "
+                f"'{joint.parent}'; {'check its rpy' if is_tilted else remedy}",
                 at=joint.origin,
                 effects=("image_geometry (rolled)" if looks_ahead else "image_geometry",),
-                data={"angle": angle},
+                severity=INFO if is_tilted else None,
+                pedantic=is_tilted,
+                data={"angle": angle, "tilt": tilt},
             )
+
+
+TILT = 45.0
+"""Angle between the viewing directions of a camera and its optical frame [°], below which the
+camera may be tilted in its frame. Chosen, no source."""
+
+
+def _describe_turn(angle: float, tilt: float, looks_ahead: bool) -> str:
+    """Describe a rotation from the convention by its angle and that of the direction [°]."""
+    if looks_ahead:
+        return f"rotated by {angle:.3g}° about the viewing direction"
+    if abs(angle - tilt) < 1:
+        return f"rotated by {angle:.3g}° from the viewing direction"
+    return f"rotated by {angle:.3g}°, and looks {tilt:.3g}° away from the viewing direction"
 
 
 def _is_upright_by_roll(rotation: Rotation, camera: Pose | None) -> bool:
@@ -113,7 +132,9 @@ upper side. Chosen, no source."""
 def turn_optical_frame(problem: Problem, context: FixContext) -> Proposal | None:
     """Rotate the frame so that z points in the viewing direction."""
     joint = context.get_joint(problem)
-    if joint.origin is not None and "quat_xyzw" in joint.origin.element.attributes:
+    if problem.pedantic or (
+        joint.origin is not None and "quat_xyzw" in joint.origin.element.attributes
+    ):
         return None
     rpy = "-1.5707963267948966 0 -1.5707963267948966"
     return unsafe(f'write rpy="{rpy}"', set_in_origin(joint, "rpy", rpy))
