@@ -89,6 +89,6 @@ def test_what_cannot_be_read_has_its_place(tmp_path):
     read = api.load(path)
     (rejected,) = read.rejected_settings
     assert (rejected.kind, rejected.name, rejected.text) == ("sensor", "s", "fast")
-    dangling = [one for one in list_remarks(read) if one.code == "dangling-block"]
+    dangling = [one for one in list_remarks(read) if one.code == "dangling-reference"]
     assert {one.name for one in dangling} == {"b "}
     assert all(one.place.line > 1 for one in (rejected, *dangling))

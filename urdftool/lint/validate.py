@@ -89,6 +89,7 @@ _PHYSICS = tuple(
 )
 """Rigid bodies can have the inertia that is written."""
 
+_IN_BLOCK = _make_conditions(is_loop=(True, False))
 _NOT_IN_DRAKE = _make_conditions(is_in_drake=(False,))
 
 PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
@@ -144,13 +145,14 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("not-a-number", _make_conditions(part=("robot",))),
             Requirement("unknown-sensor-type"),
             Requirement("plugin-without-filename", _make_conditions(has_filename=(False,))),
-            Requirement("bad-extension-number", _make_conditions(holder=("keyword", "element"))),
+            Requirement("bad-extension-number", _make_conditions(holder=("keyword",))),
+            Requirement("invalid-sdf-value", _IN_BLOCK),
         ),
         "export:mjcf": (
             Requirement("empty-geometry"),
             Requirement("unsupported-shape", _NOT_IN_DRAKE),
             Requirement("bad-extension-number", _make_conditions(kind=("number", "count"))),
-            Requirement("bad-extension-number", _make_conditions(is_loop=(True,))),
+            Requirement("invalid-sdf-value", _make_conditions(is_loop=(True,))),
             Requirement("bad-extension-number", _make_conditions(holder=("mujoco",))),
         ),
         "export:usd": (Requirement("empty-geometry"), Requirement("unsupported-shape")),

@@ -63,7 +63,7 @@ def find_references_at(robot: Robot, place: Place) -> Iterator[str]:
             yield block.reference or ""
 
 
-_OWNERS = ("sensor", "link", "joint", "world")
+_OWNERS = ("sensor", "light", "link", "joint", "world")
 
 
 def find_owner(robot: Robot, element: Element) -> tuple[str, str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from ..source.document import Element
@@ -14,8 +14,9 @@ from .numbers import number, parse_numbers
 from .part import Vector
 from .plugins import read_plugin
 from .pose import IDENTITY, Pose, compute_norm, get_origin_at, rotate
+from .sdf_schema import find_requirement, walk_values
 from .sensors import read_body_sensor, read_sensor, read_sensor_pose
-from .settings import RESISTANCE_OF_URDF, Rejected, is_false
+from .settings import BAD_ELEMENT, RESISTANCE_OF_URDF, Rejected, is_false
 from .world import WORLD
 
 if TYPE_CHECKING:
@@ -62,10 +63,11 @@ def _add_sensor(robot: Robot, block: GazeboExtension, element: Element) -> None:
     name, reference = element.get("name") or "", block.reference or ""
     if reference not in robot.link and reference not in robot.joint:
         if not reference:  # else the block is reported
-            robot.rejected_settings.append(
-                Rejected(element, "sensor", name, "gazebo reference", reference, _PART)
-            )
+            part = "sensor", name, "gazebo reference", reference, _PART
+            robot.rejected_settings.append(Rejected(element, "misplaced-extension", *part))
         return
+    cameras = [("camera", camera.find_child("pose")) for camera in element.list_children("camera")]
+    _reject_values(robot, ("sensor", name), [("sensor", element.find_child("pose")), *cameras])
     on_link = reference in robot.link
     pose, frame = read_sensor_pose(element)
     if frame in robot.link and on_link and frame != reference:
@@ -127,9 +129,10 @@ def _add_light(robot: Robot, link: str, element: Element) -> None:
         required = "the name of a link of the robot"
         name = element.get("name") or ""
         if not link or link in robot.joint:  # else the block is reported
-            rejected = Rejected(element, "light", name, "gazebo reference", link, required)
-            robot.rejected_settings.append(rejected)
+            part = "light", name, "gazebo reference", link, required
+            robot.rejected_settings.append(Rejected(element, "unknown-extension", *part))
         return
+    _reject_values(robot, ("light", element.get("name") or ""), walk_values("link", element))
     kind = element.get("type") or "point"
     pose, _ = read_sensor_pose(element)
     direction = None
@@ -169,16 +172,20 @@ def _add_loop(robot: Robot, reference: str, element: Element) -> None:
     name, type_ = element.get("name") or "", element.get("type") or ""
     pose, frame = read_sensor_pose(element)
     ends = [_get_text(element, tag).rpartition("::")[2] for tag in ("parent", "child")]
-    for tag, text, known, required in (
-        ("gazebo reference", reference, ("",), "absent"),
-        ("joint type", type_, LOOP_TYPES, f"one of {', '.join(LOOP_TYPES)}"),
-        ("frame of the pose", frame, {*robot.link, "", "__model__"}, "the name of a link"),
-        ("parent", ends[0], {*robot.link, WORLD}, "the name of another link"),
-        ("child", ends[1], {*robot.link} - {ends[0]}, "the name of another link"),
+    invalid = _reject_values(robot, ("joint", name), walk_values("model", element))
+    for tag, what, text, known, required in (
+        ("", "gazebo reference", reference, ("",), "absent"),
+        ("", "joint type", type_, LOOP_TYPES, f"one of {', '.join(LOOP_TYPES)}"),
+        ("pose", "frame of the pose", frame, {*robot.link, "", "__model__"}, "the name of a link"),
+        ("parent", "parent", ends[0], {*robot.link, WORLD}, "the name of another link"),
+        ("child", "child", ends[1], {*robot.link} - {ends[0]}, "the name of another link"),
     ):
         if text not in known:
-            rejected = Rejected(element, "closed loop", name, tag, text, required)
-            robot.rejected_settings.append(rejected)
+            code = "dangling-reference" if tag else _CODES[what]
+            written = element.find_child(tag) or element
+            if all(one.provenance is not written for one in invalid):
+                rejected = Rejected(written, code, "joint", name, what, text, required)
+                robot.rejected_settings.append(rejected)
             return
     parent, child = ends
     poses = get_zero_poses(robot)
@@ -194,6 +201,23 @@ def _add_loop(robot: Robot, reference: str, element: Element) -> None:
     closure = Closure(element, name, kind, parent, child, one, two, axis)
     closure.is_limited, closure.has_dynamics = _has_bounds(element), _has_dynamics(element)
     robot.closures.append(closure)
+
+
+_CODES = {"gazebo reference": "unknown-extension", "joint type": BAD_ELEMENT}
+"""Rules of ``lint`` that report what is wrong with a joint of SDF, apart from its references."""
+
+
+def _reject_values(
+    robot: Robot, part: tuple[str, str], elements: Iterable[tuple[str, Element | None]]
+) -> list[Rejected]:
+    """Reject the invalid values of elements of SDF, each after the tag that holds it."""
+    rejected = [
+        Rejected(one, BAD_ELEMENT, *part, one.tag, one.text.strip(), required.text)
+        for above, one in elements
+        if one is not None and (required := find_requirement(above, one))
+    ]
+    robot.rejected_settings += rejected
+    return rejected
 
 
 def _has_bounds(joint: Element) -> bool:

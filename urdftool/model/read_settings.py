@@ -12,9 +12,12 @@ from .settings import (
     ALL_OF_JOINTS,
     ALL_OF_LINKS,
     ALL_SURFACE,
+    BAD_ELEMENT,
+    BAD_KEYWORD,
     OF_JOINTS,
     OF_LINKS,
     OF_ROBOT,
+    OUT_OF_RANGE,
     SURFACE,
     Rejected,
     Setting,
@@ -44,14 +47,16 @@ class _Reading:
     values: Settings = field(default_factory=dict)
     weak: set[int] = field(default_factory=set)
 
-    def put(self, row: Setting, element: Element, *, negated: bool = False) -> None:
+    def put(
+        self, row: Setting, element: Element, *, negated: bool = False, code: str = BAD_ELEMENT
+    ) -> None:
         text = get_text(element)
         content, required = parse(row.kind, text), find_required(row, text)
         if content is None or required:
             if all(one.provenance is not element for one in self.rejected):
-                self.rejected.append(
-                    Rejected(element, self.kind, self.name, element.tag, text, required)
-                )
+                code = OUT_OF_RANGE if code == BAD_KEYWORD and content is not None else code
+                part = self.kind, self.name
+                self.rejected.append(Rejected(element, code, *part, element.tag, text, required))
             return
         content = not content if negated else content
         before = self.values.get(row.name)
@@ -137,14 +142,15 @@ def _read_elements(
     robot: Robot, reading: _Reading, elements: Sequence[Element], rows: Sequence[Setting]
 ) -> Settings:
     """Read the elements in the blocks of a part: a tag counts before an element of SDF."""
-    if rows is not SURFACE:
-        _put_raw(reading, elements[::-1], rows)  # sdformat reads the first of several
     tags = {tag: row for row in rows for tag in (*row.tags, row.opposite) if tag}
+    if rows is not SURFACE:  # of several, sdformat reads the first
+        _put_raw(reading, (one for one in elements[::-1] if one.tag not in tags), rows)
     for element in elements:
         if element.tag in tags:
             for row in rows:
                 if element.tag in row.tags or element.tag == row.opposite:
-                    reading.put(row, element, negated=element.tag == row.opposite)
+                    is_opposite = element.tag == row.opposite
+                    reading.put(row, element, negated=is_opposite, code=BAD_KEYWORD)
     robot.rejected_settings += reading.rejected
     return reading.values
 
@@ -165,6 +171,6 @@ def _put_contact(reading: _Reading, contact: Element | None) -> None:
     for row in SURFACE if contact is not None else ():
         element = contact.find_child(row.contact) if contact is not None and row.contact else None
         if element is not None and (row.contact != "stiffness" or number(get_text(element)) != 0):
-            reading.put(row, element)  # 0 as a stiffness means the default
+            reading.put(row, element, code=OUT_OF_RANGE)  # 0 as a stiffness means the default
     for value in reading.values.values():
         reading.weak.add(id(value))

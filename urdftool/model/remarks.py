@@ -17,8 +17,7 @@ class Remark(NamedTuple):
     """A statement of a description that is not used as it is written.
 
     Attributes:
-        code: ``rejected-setting``, ``repeated-setting``, ``dangling-block`` or
-            ``undefined-material``.
+        code: Rule of ``lint`` that reports it.
         place: Where it is.
         kind: Kind of its part, such as ``link``.
         name: Name of that part.
@@ -35,10 +34,10 @@ class Remark(NamedTuple):
 def list_remarks(robot: Robot) -> Iterator[Remark]:
     """Yield what a robot does not hold as it is written; for MJCF and USD none."""
     for one in robot.rejected_settings:
-        yield Remark("rejected-setting", one.place, one.kind, one.name, one.message)
+        yield Remark(one.code, one.place, one.kind, one.name, f"{one.fact}; it is ignored")
     for name, block in list_dangling_blocks(robot):
         place = block.locate_attribute("reference")
-        yield Remark("dangling-block", place, "gazebo", name, describe_dangling(robot, name))
+        yield Remark("dangling-reference", place, "gazebo", name, describe_dangling(robot, name))
     yield from _list_repeated(robot)
     yield from _list_undefined(robot)
 
@@ -46,7 +45,8 @@ def list_remarks(robot: Robot) -> Iterator[Remark]:
 def _list_repeated(robot: Robot) -> Iterator[Remark]:
     """Yield the settings that blocks give several values."""
     for part, value in list_repeated_settings(robot):
-        yield Remark("repeated-setting", value.place, *part, describe_repeated(part, value))
+        text = describe_repeated(part, value)
+        yield Remark("conflicting-references", value.place, *part, text)
 
 
 def list_repeated_settings(robot: Robot) -> Iterator[tuple[tuple[str, str], Value]]:

@@ -15,6 +15,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -103,6 +104,19 @@ def describe_bounds(least: float, most: float) -> str:
     if math.isinf(most):
         return "" if math.isinf(least) else f" of at least {least:g}"
     return f" from {least:g} to {most:g}"
+
+
+def walk_values(parent: str, element: Element) -> Iterator[tuple[str, Element]]:
+    """Yield an element and all below it in document order, each after the tag that holds it.
+
+    Parameters of plugins have no type, and are left out.
+    """
+    todo = [(parent, element)]
+    while todo:
+        parent, element = todo.pop()
+        if element.tag != "plugin":
+            yield parent, element
+            todo += [(element.tag, child) for child in reversed(element.children)]
 
 
 def find_requirement(parent: str, element: Element) -> Requirement | None:

@@ -18,6 +18,7 @@ from .mechanism import Camera, MountedSensor
 from .numbers import number, parse_numbers
 from .pose import IDENTITY, Pose, get_origin_at, rotation_from_quaternion, rotation_from_rpy
 from .settings import (
+    BAD_ELEMENT,
     Content,
     Rejected,
     Setting,
@@ -268,9 +269,8 @@ class _Reading:
         row = _ROWS.get(path) or get_sensor_row(path)
         content, required = parse(row.kind, text), find_required(row, text)
         if content is None or required:
-            self.rejected.append(
-                Rejected(element, "sensor", self.name, element.tag, text, required)
-            )
+            part = "sensor", self.name
+            self.rejected.append(Rejected(element, BAD_ELEMENT, *part, element.tag, text, required))
             return
         name, count = row.name, 1
         while name in self.values:

@@ -273,11 +273,16 @@ class Value(Part):
     @property
     def written(self) -> Content:
         """Return what the element says: the opposite of the content of ``turnGravityOff``."""
-        return self.content if self.tag not in _OPPOSITES else not self.content
+        return self.content if not is_opposite(self.tag) else not self.content
 
 
 Settings = dict[str, Value]
 """Values by the names of their rows."""
+
+
+BAD_KEYWORD, OUT_OF_RANGE = "bad-extension-number", "setting-out-of-range"
+BAD_ELEMENT = "invalid-sdf-value"
+"""Rules of ``lint``: a tag that is not valid, a value outside of its bounds, an element of SDF."""
 
 
 @dataclass(slots=True)
@@ -285,6 +290,7 @@ class Rejected(Part):
     """Element of a setting whose text is not a value.
 
     Attributes:
+        code: Rule of ``lint`` that reports it: the code of its finding in each command.
         kind: ``link``, ``joint``, ``robot``, ``sensor`` or ``closed loop``.
         name: Name of that part.
         tag: Tag of the element, or what of it is wrong.
@@ -292,6 +298,7 @@ class Rejected(Part):
         required: What it has to be.
     """
 
+    code: str = BAD_ELEMENT
     kind: str = ""
     name: str = ""
     tag: str = ""
@@ -299,10 +306,9 @@ class Rejected(Part):
     required: str = ""
 
     @property
-    def message(self) -> str:
-        """Return what is wrong and what would be right, in one sentence."""
-        fact = describe_rejected((self.kind, self.name), self.tag, self.text, self.required)
-        return f"{fact}; it is ignored"
+    def fact(self) -> str:
+        """Return what is wrong and what would be right."""
+        return describe_rejected((self.kind, self.name), self.tag, self.text, self.required)
 
 
 def describe_rejected(part: tuple[str, str], tag: str, text: str, required: str) -> str:
@@ -366,7 +372,7 @@ def describe_kind(kind: str) -> str:
         "count": "a whole number",
         "vector": "three finite numbers",
         "list": "finite numbers",
-        "color": "three or four finite numbers",
+        "color": "three or four finite numbers from 0 to 1",
         "flag": "true or false",
         "text": "a text",
     }[kind]
@@ -395,6 +401,11 @@ def is_set(settings: Mapping[str, Value], name: str, default: bool = False) -> b
     """Tell whether a flag is set; return the default where the description does not say."""
     value = settings.get(name)
     return default if value is None else bool(value.content)
+
+
+def is_opposite(tag: str) -> bool:
+    """Tell whether a tag in ``<gazebo>`` sets a flag to its opposite."""
+    return tag in _OPPOSITES
 
 
 def list_rows(tag: str) -> list[Setting]:

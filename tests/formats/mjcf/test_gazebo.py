@@ -63,7 +63,7 @@ def test_what_is_not_carried_is_said(write, keyword):
 
 def test_a_reference_to_nothing_is_said(write):
     path = write("r.urdf", robot(link("a", SHAPES), gazebo("<mu1>1</mu1>", "ghost")))
-    assert "dangling-block" in rules(format_named("mjcf").write(load(path), Options()))
+    assert "dangling-reference" in rules(format_named("mjcf").write(load(path), Options()))
 
 
 def test_camera_looks_along_x(write):

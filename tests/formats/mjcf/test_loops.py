@@ -75,20 +75,21 @@ def test_a_pose_in_the_frame_of_another_link(write):
 
 
 @pytest.mark.parametrize(
-    "choices",
+    ("choices", "code"),
     [
-        {"parent": "ghost"},
-        {"child": "ghost"},
-        {"child": "b"},
-        {"block": ' reference="a"'},
-        {"inside": '<pose relative_to="ghost">0 0 0 0 0 0</pose>'},
+        ({"parent": "ghost"}, "dangling-reference"),
+        ({"child": "ghost"}, "dangling-reference"),
+        ({"child": "b"}, "dangling-reference"),
+        ({"block": ' reference="a"'}, "unknown-extension"),
+        ({"inside": '<pose relative_to="ghost">0 0 0 0 0 0</pose>'}, "dangling-reference"),
+        ({"kind": "odd"}, "invalid-sdf-value"),
     ],
 )
-def test_a_loop_that_the_robot_does_not_hold_is_said(write, choices):
+def test_a_loop_that_the_robot_does_not_hold_is_said(write, choices, code):
     path = write("r.urdf", closed(**choices))
     written = format_named("mjcf").write(load(path), Options(actuators="none"))
-    assert rules(written) == ["rejected-setting"]
-    assert "closed loop 'loop'" in written.losses[0].message
+    assert rules(written) == [code]
+    assert "joint 'loop'" in written.losses[0].message
     assert tree(written).find("equality") is None
 
 
@@ -119,7 +120,7 @@ def test_numbers_that_are_none(write, inside):
     path = write("r.urdf", closed(inside))
     with pytest.raises(Refused) as caught:
         export(path)
-    assert caught.value.findings[0].code == "bad-extension-number"
+    assert caught.value.findings[0].code == "invalid-sdf-value"
     assert len(equalities(export(path, force=True))) >= 1
 
 

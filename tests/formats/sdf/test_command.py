@@ -78,7 +78,7 @@ def test_strict(urdftool, write, tmp_path):
     result = urdftool("export", "sdf", path, "-o", "out")
     assert result.code == 0
     assert "warning" in result.err
-    assert "[dangling-block]" in result.err
+    assert "[dangling-reference]" in result.err
 
 
 def test_json(urdftool, tmp_path):

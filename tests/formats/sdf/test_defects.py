@@ -210,6 +210,6 @@ def test_a_pose_that_is_none_is_left_out_when_forced():
 )
 def test_values_that_a_reader_refuses(said):
     parts = (link("a", f"{inertial()}<collision>{BOX}</collision>"), gazebo("a", said))
-    assert [f.code for f in refused(*parts).findings] == ["bad-extension-number"]
+    assert [f.code for f in refused(*parts).findings] == ["invalid-sdf-value"]
     text = export(*parts, force=True).files["model.sdf"].decode()
     assert all(f">{word}<" not in text for word in ("down", "x", "sometimes"))

@@ -16,7 +16,7 @@ TREE = (
 )  # fmt: skip
 """A joint moves differently from its description."""
 
-LOOPS = ("lossy-loop", "bad-extension-number")
+LOOPS = ("lossy-loop", "invalid-sdf-value")
 """A loop-closing joint was dropped."""
 
 LIMITS = (

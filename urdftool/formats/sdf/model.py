@@ -84,6 +84,9 @@ def _add_parts(node: Node, t: Translation) -> None:
 def _add_closing_joint(node: Node, t: Translation, element: Element) -> None:
     """Add a loop-closing SDF joint of a block, with the exported names of its links."""
     if why := _explain_why_not(t, _collect_ends(element)):
+        inside = {id(one) for one in element.walk()}
+        if any(id(one.provenance) in inside for one in t.robot.rejected_settings):
+            return  # a remark of the model says why
         text = f"<joint> '{element.get('name')}' of a <gazebo> block is not exported: {why}"
         t.report_loss("reference", text, element)
         return

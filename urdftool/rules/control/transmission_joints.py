@@ -151,7 +151,7 @@ def add_transmission(problem: Problem, context: FixContext) -> Proposal | None:
 
 def _find_loop_joints(robot: Robot) -> Iterator[str]:
     """Yield the joints of loops that a ``<joint>`` in a ``<gazebo>`` block closes."""
-    if any(one.kind == "closed loop" for one in robot.rejected_settings):
+    if any(one.kind == "joint" and one.name not in robot.joint for one in robot.rejected_settings):
         yield from robot.joint  # the joints of the loop are unknown
     for closure in robot.closures:
         sides = [

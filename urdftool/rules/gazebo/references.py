@@ -11,6 +11,7 @@ from ...model.numbers import describe_content
 from ...model.remarks import describe_dangling, describe_repeated, list_repeated_settings
 from ...model.settings import Value, get_text
 from ...source.document import Element
+from ...source.location import Place
 from ..fix import (
     FixContext,
     Proposal,
@@ -40,7 +41,7 @@ APPLIES_TO = ("gazebo",)
     ERROR,
     effects={
         _OF_BLOCK: "ignore the whole block, without a message (sdformat 12.3)",
-        _OF_JOINT: "reject the model: a link of the joint is not found (sdformat 12.3)",
+        _OF_JOINT: "reject the model: a link is not found, or is both ends (sdformat 12.3)",
     },
 )
 def dangling_reference(robot: Robot) -> Iterator[Problem]:
@@ -145,6 +146,7 @@ def _get_sdf_names(robot: Robot, *tags: str) -> Iterator[str]:
 
 def _check_loops(robot: Robot) -> Iterator[Problem]:
     of_sdf = {*_get_sdf_names(robot, "link", "frame")}
+    reported: set[Place] = set()
     for joint in find_sdf_joints(robot):
         for end in (joint.find_child("parent"), joint.find_child("child")):
             name = end.text.strip() if end is not None else ""
@@ -163,6 +165,7 @@ def _check_loops(robot: Robot) -> Iterator[Problem]:
                 what += "write that, or add preserveFixedJoint to the joint"
             else:
                 what += f"not a link{suggest_name(name, robot.link)}"
+            reported.add(end.place)
             yield Problem(
                 _get_block(joint),
                 what,
@@ -171,6 +174,15 @@ def _check_loops(robot: Robot) -> Iterator[Problem]:
                 severity=WARNING if lumped else None,
                 effects=(_OF_JOINT,),
             )
+
+    for one in robot.rejected_settings:
+        is_end = one.tag in ("parent", "child")
+        known = {} if is_end else {*robot.joint, *of_sdf}
+        if one.code != "dangling-reference" or one.text in known or "::" in one.text:
+            continue
+        if one.place not in reported and (one.text in robot.link) is is_end:
+            text = f"{one.fact}, so Gazebo rejects the model"
+            yield Problem(one.element, text, data={"name": one.text}, effects=(_OF_JOINT,))
 
 
 def _get_block(joint: Element) -> Element:

@@ -140,11 +140,10 @@ def _report(written: _Written, required: str, effects: tuple[str, ...]) -> Probl
     message = f"{kind} '{part.name}': {element.tag} has no attribute value; write it"
     if required:
         message = describe_rejected((kind, part.name), element.tag, get_text(element), required)
-    is_attribute = element.get("value") is not None
     return Problem(
         part,
         message,
-        at=element.locate_attribute("value") if is_attribute else element,
+        at=element,
         severity=ERROR if not _REJECTS.isdisjoint(effects) else None,
         effects=effects,
         data={"setting": written.row.name},

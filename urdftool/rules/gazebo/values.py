@@ -6,16 +6,17 @@ import re
 from collections.abc import Iterator, Set
 
 from ...model.block_elements import find_owner
-from ...model.elements import GazeboExtension, Joint, Robot
+from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
-from ...model.sdf_schema import find_requirement, find_requirement_of_attribute
+from ...model.sdf_schema import find_requirement, find_requirement_of_attribute, walk_values
 from ...model.settings import (
-    JOINT_TAGS,
+    BAD_ELEMENT,
+    BAD_KEYWORD,
     describe_kind,
     describe_rejected,
     get_text,
+    is_opposite,
     list_rows,
-    parse,
 )
 from ...source.description import Description
 from ...source.document import Element
@@ -41,16 +42,21 @@ from .lumping import get_lumped_body, is_lumped
 
 APPLIES_TO = ("gazebo",)
 
+_NUMBER = "gz, gazebo-classic (a number)"
+_FLAG = "gz, gazebo-classic (true or false)"
+_VECTOR = "gz, gazebo-classic (a direction)"
 _LEADING = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:inf|nan)", re.IGNORECASE)
 
 
 @rule(
     ERROR,
     effects={
-        "gz, gazebo-classic": (
+        _NUMBER: (
             "abort with an uncaught 'stod' exception if the text does not begin with a number; "
             "read the leading number in other cases (sdformat 12.3)"
         ),
+        _FLAG: "read another word as false; of turnGravityOff as true (sdformat 12.3)",
+        _VECTOR: "reject the whole model (sdformat 12.3: Error 9)",
         "urdfdom, mujoco, pybullet, pinocchio, drake": "ignore <gazebo>",
     },
 )
@@ -59,7 +65,8 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
 
     sdformat converts mu1, kp and similar values with a function that throws if the text does not
     begin with a number. The exception is not caught, so the simulator aborts. Of ``10.0d`` it reads
-    10 and ignores the rest; this case is a warning.
+    10 and ignores the rest; this case is a warning, as is a flag such as ``selfCollide`` that is
+    neither true nor false. The direction ``fdir1`` requires three numbers.
     """
     for block in robot.gazebo:
         for child in block.element.children:
@@ -74,50 +81,40 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
                 continue
             fact = describe_rejected(find_owner(robot, child), child.tag, text, "a finite number")
             if number is None:
-                yield Problem(block.element, f"{fact}, so Gazebo aborts", at=child)
+                text = f"{fact}, so Gazebo aborts"
+                yield Problem(block.element, text, at=child, effects=(_NUMBER,))
             else:
                 yield Problem(
                     block.element,
                     f"{fact}; Gazebo reads only {number[0]}",
                     at=child,
                     severity=WARNING,
+                    effects=(_NUMBER,),
                     data={"write": number[0]},
                 )
+    for one in robot.rejected_settings:
+        if one.code != BAD_KEYWORD or one.tag in NUMBERS or is_unexpanded(one.text):
+            continue
+        if one.required == describe_kind("flag"):
+            text = f"{one.fact}; Gazebo reads it as {'true' if is_opposite(one.tag) else 'false'}"
+            yield Problem(one.element, text, severity=WARNING, effects=(_FLAG,))
+        else:
+            text = f"{one.fact}, so Gazebo rejects the model"
+            yield Problem(one.element, text, effects=(_VECTOR,))
 
 
 @bad_extension_number.full
 def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
-    """Report each value of an extension that the reader of the extension rejects.
+    """Report each value of a tag that the model rejects, and those of MuJoCo.
 
     ``Problem.data`` has the ``holder``: a ``keyword`` of a link or joint, with the ``kind`` of its
-    value; an SDF ``element``, with ``is_loop`` if it places a joint that closes a loop; or
-    ``mujoco``, an attribute in that element.
+    value, or ``mujoco``, an attribute in that element.
     """
-    for block in robot.gazebo:
-        name = block.reference or ""
-        parts = [part for part in (robot.link.get(name), robot.joint.get(name)) if part is not None]
-        for element in block.element.children:
-            of_joint = element.tag in JOINT_TAGS
-            kind, text = next((row.kind for row in list_rows(element.tag)), ""), get_text(element)
-            for part in parts if kind and parse(kind, text) is None else ():
-                if isinstance(part, Joint) == of_joint:
-                    yield Problem(
-                        part,
-                        _describe(robot, element, describe_kind(kind)),
-                        at=element,
-                        data={"holder": "keyword", "kind": kind},
-                    )
-        for above, element in iterate_sdf_elements(robot, block):
-            if needed := find_requirement(above, element):
-                yield Problem(
-                    parts[0] if parts else block.element,
-                    _describe(robot, element, needed.text),
-                    at=element,
-                    data={
-                        "holder": "element",
-                        "is_loop": _is_loop_placement(block.element, element),
-                    },
-                )
+    for one in robot.rejected_settings:
+        if one.code == BAD_KEYWORD and one.kind in ("link", "joint"):
+            part = (robot.link if one.kind == "link" else robot.joint)[one.name]
+            data = {"holder": "keyword", "kind": list_rows(one.tag)[0].kind}
+            yield Problem(part, one.fact, at=one.element, data=data)
     for element in find_setting_elements(robot):
         for attribute, value in element.attributes.items():
             if required := describe_required_setting(element, attribute):
@@ -131,16 +128,6 @@ def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
 
 def _describe(robot: Robot, element: Element, required: str) -> str:
     return describe_rejected(find_owner(robot, element), element.tag, get_text(element), required)
-
-
-def _is_loop_placement(block: Element, element: Element) -> bool:
-    """Tell whether an element is the pose or the axis of a joint in a block."""
-    above = element.parent
-    if element.tag == "xyz" and above is not None and above.tag == "axis":
-        above = above.parent
-    elif element.tag != "pose":
-        return False
-    return above is not None and above.tag == "joint" and above.parent is block
 
 
 @bad_extension_number.fix(SAFE)
@@ -265,6 +252,7 @@ def implausible_friction(robot: Robot, *, highest: float = 10.0) -> Iterator[Pro
 
 
 _REJECTED = "gz, gazebo-classic (another type, or outside of the range)"
+_TYPE = "gz, gazebo-classic (type of a joint that closes a loop)"
 _CUT = "gz, gazebo-classic (more than the value)"
 
 
@@ -273,6 +261,7 @@ _CUT = "gz, gazebo-classic (more than the value)"
     formats=URDF_AND_SDF,
     effects={
         _REJECTED: "reject the whole model (sdformat 12.3: Error 9)",
+        _TYPE: "reject the whole model (sdformat 12.3: Error 5)",
         _CUT: "take the beginning, without a message (sdformat 12.3)",
     },
 )
@@ -286,8 +275,12 @@ def invalid_sdf_value(robot: Robot, description: Description) -> Iterator[Proble
     that Gazebo does not keep are not checked.
     """
     if robot.format == "sdf":
-        for parent, element in _iterate("", description.document.root):
+        for parent, element in walk_values("", description.document.root):
             yield from _check(robot, parent, element)
+    for one in robot.rejected_settings:
+        if one.code == BAD_ELEMENT and one.tag == "joint type" and not is_unexpanded(one.text):
+            text = f"{one.fact}, so Gazebo rejects the model"
+            yield Problem(one.element, text, effects=(_TYPE,))
     kept = find_kept_links(robot) or set()
     for block in robot.gazebo if kept else ():
         if not _is_read(robot, block, kept):
@@ -318,17 +311,7 @@ def iterate_sdf_elements(robot: Robot, block: GazeboExtension) -> Iterator[tuple
     if not name or parent != "model":
         for child in block.element.children:
             if child.tag not in KEYWORDS or child.children:
-                yield from _iterate(parent, child)
-
-
-def _iterate(parent: str, element: Element) -> Iterator[tuple[str, Element]]:
-    """Yield an element and all below it in document order; parameters of plugins have no type."""
-    todo = [(parent, element)]
-    while todo:
-        parent, element = todo.pop()
-        if element.tag != "plugin":
-            yield parent, element
-            todo += [(element.tag, child) for child in reversed(element.children)]
+                yield from walk_values(parent, child)
 
 
 def _check(robot: Robot, parent: str, element: Element) -> Iterator[Problem]:
@@ -344,6 +327,35 @@ def _check(robot: Robot, parent: str, element: Element) -> Iterator[Problem]:
             what = f"{name} of <{element.tag}>"
             fact = describe_rejected(find_owner(robot, element), what, value, required.text)
             yield from _report(element, element.locate_attribute(name), fact, required.effect)
+
+
+@invalid_sdf_value.full
+def report_invalid_values(robot: Robot) -> Iterator[Problem]:
+    """Report each value of an SDF element in a block that libsdformat does not take whole.
+
+    ``Problem.data`` has ``is_loop``: whether it places a joint that closes a loop.
+    """
+    for block in robot.gazebo:
+        name = block.reference or ""
+        part = robot.link.get(name) or robot.joint.get(name)
+        for above, element in iterate_sdf_elements(robot, block):
+            if needed := find_requirement(above, element):
+                yield Problem(
+                    block.element if part is None else part,
+                    _describe(robot, element, needed.text),
+                    at=element,
+                    data={"is_loop": _is_loop_placement(block.element, element)},
+                )
+
+
+def _is_loop_placement(block: Element, element: Element) -> bool:
+    """Tell whether an element is the pose or the axis of a joint in a block."""
+    above = element.parent
+    if element.tag == "xyz" and above is not None and above.tag == "axis":
+        above = above.parent
+    elif element.tag != "pose":
+        return False
+    return above is not None and above.tag == "joint" and above.parent is block
 
 
 def _report(element: Element, at: Element | Place, fact: str, effect: str) -> Iterator[Problem]:

@@ -21,7 +21,7 @@ BLOCKS = frozenset(
         "lossy-extension",
         "lossy-reference",
         "bad-extension-number",
-        "lossy-bad-extension-number",
+        "invalid-sdf-value",
     )
 )
 """Contents of a ``<gazebo>`` block were dropped or changed."""
