@@ -123,7 +123,8 @@ def test_a_joint_from_a_link_to_itself_is_left_out(ends):
     said = (
         '<gazebo><joint name="q" type="ball"><parent>{}</parent><child>{}</child></joint></gazebo>'
     )
-    written = export(*parts, said.format(*ends), fixed_joints="lump")
+    model = robot(*parts, said.format(*ends))
+    written = format_named("sdf").write(model, Options(fixed_joints="lump"))
     assert "q" not in names(tree(written), "joint")
     code = "dangling-reference" if ends == ("b", "b") else "lossy-reference"
     assert [rule for rule in rules(written) if "reference" in rule] == [code]
