@@ -18,7 +18,7 @@ from urdftool.rules.table import FIXES, RULES
 from urdftool.rules.targets import TARGETS
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures" / "rules"
-DESCRIPTIONS = (".urdf", ".xacro")
+DESCRIPTIONS = (".urdf", ".xacro", ".usda")
 LANGUAGES = {".urdf": "xml", ".xacro": "xml", ".srdf": "xml", ".yaml": "yaml"}
 
 COVERED = {
@@ -191,7 +191,7 @@ def _list_companions(bad: Path) -> list[tuple[Path, Path]]:
 
 def _read_lines(rule: str, data: bytes) -> list[str]:
     """Return the lines of a fixture without the comments that mark reported places."""
-    mark = re.compile(rf"[ \t]*<!-- *{re.escape(rule)} *-->")
+    mark = re.compile(rf"[ \t]*(<!-- *{re.escape(rule)} *-->|# {re.escape(rule)}$)", re.MULTILINE)
     return mark.sub("", data.decode("utf-8", "replace")).splitlines()
 
 

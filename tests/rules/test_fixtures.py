@@ -2,9 +2,10 @@
 
 ``fixtures/rules/RULE/bad*.urdf[.xacro]`` is a small whole robot with that fault. Each line where
 a finding is expected ends in a comment that names the rules found there: ``<!-- zero-axis -->``,
-or ``<!-- zero-mass massless-moving-body -->``. Where a comment cannot stand (a file that is not
-well-formed, a line inside a tag), ``bad.expected`` beside it has lines such as
-``3 not-well-formed`` (or ``bad.srdf 3 …``, of another file) and the comments do not count.
+or ``<!-- zero-mass massless-moving-body -->``; in ``bad.usda`` it is ``# zero-axis``. Where a
+comment cannot stand (a file that is not well-formed, a line inside a tag), ``bad.expected`` beside
+it has lines such as ``3 not-well-formed`` (or ``bad.srdf 3 …``, of another file) and the comments
+do not count.
 ``good*.urdf`` is the same robot without the fault, and silent. ``urdftool.toml`` beside them sets
 targets where the rule needs one.
 """
@@ -25,8 +26,11 @@ from urdftool.rules.table import RULES
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "rules"
 
-BAD = sorted((*FIXTURES.glob("*/bad*.urdf*"), *FIXTURES.glob("*/bad*.sdf")))
-GOOD = sorted((*FIXTURES.glob("*/good*.urdf*"), *FIXTURES.glob("*/good*.sdf")))
+ENDINGS = (".urdf", ".xacro", ".sdf", ".usda")
+BAD, GOOD = (
+    sorted(path for path in FIXTURES.glob(f"*/{word}*") if path.suffix in ENDINGS)
+    for word in ("bad", "good")
+)
 
 
 def _name(path):
@@ -34,6 +38,8 @@ def _name(path):
 
 
 def _findings(path):
+    if path.suffix == ".usda":
+        pytest.importorskip("pxr")
     settings = Settings(extend_select=(path.parent.name,))
     options = Options(settings, read_other=read_other_format)
     report = check_file(path, options)
@@ -56,11 +62,11 @@ def _expected(path):
             file.name.startswith(("bad", "good", "fixed")) or file.suffix == ".toml"
         ):
             continue
-        if file.suffix not in (".urdf", ".xacro", ".sdf"):
+        if file.suffix not in ENDINGS:
             continue
         for number, line in enumerate(file.read_text("utf-8").splitlines(), 1):
-            for comment in re.findall(r"<!--\s([a-z0-9 -]+)\s-->", line):
-                words = comment.split()
+            for comment in re.findall(r"<!--\s([a-z0-9 -]+)\s-->|# ([a-z0-9 -]+)$", line):
+                words = "".join(comment).split()
                 if all(word in FAMILY_OF for word in words):
                     marks += [(file.name, number, word) for word in words]
     return sorted(marks)

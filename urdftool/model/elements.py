@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from ..memo import Memo
 from ..source.document import Element
+from .contradiction import Contradiction
 from .conversions import RobotConversions
 from .extensions import Actuator as Actuator
 from .extensions import ControlComponent as ControlComponent
@@ -101,6 +102,7 @@ class Robot(RobotConversions, Part):
         settings: Settings of ``settings.OF_ROBOT``.
         world: Settings of the world around it, of ``world_settings``.
         rejected_settings: Elements of settings whose text is not a value.
+        contradictions: Attributes of a stage for different simulators that differ.
         native: Elements that a writer of the format of its source copies.
         unread: What the robot does not hold of its source, once for each kind.
         source: Description from which it was read; None if it was read from a bare element.
@@ -128,6 +130,7 @@ class Robot(RobotConversions, Part):
     settings: Settings = field(default_factory=dict)
     world: Settings = field(default_factory=dict)
     rejected_settings: list[Rejected] = field(default_factory=list)
+    contradictions: list[Contradiction] = field(default_factory=list)
     format: str = "urdf"
     native: Sequence[NativeElement] = field(default=(), repr=False)
     unread: Sequence[Finding] = field(default=(), repr=False)

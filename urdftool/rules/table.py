@@ -362,6 +362,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "isaac-mimic-without-limits",
             "usd-importers-no-xacro",
         ),
+        "stages": ("contradicting-simulators",),
     },
     "moveit": {
         "semantic": (

@@ -113,3 +113,55 @@ def test_a_layer_that_is_repaired_is_read_again(urdftool, write):
     assert "1 file not checked" in urdftool("lint", stage).err
     write("b.usda", HEAD.format("") + BODY)
     assert "not checked" not in urdftool("lint", stage).err
+
+
+MIMIC = """
+    def PhysicsRevoluteJoint "wrist" (
+        prepend apiSchemas = ["NewtonMimicAPI", "PhysxMimicJointAPI:rotX"]
+    )
+    {{
+        rel physics:body0 = </r/base>
+        rel physics:body1 = </r/base/hand>
+        float physics:lowerLimit = -90
+        float physics:upperLimit = 90
+        rel newton:mimicJoint = </r/elbow>
+        float newton:mimicCoef1 = 2
+        rel physxMimicJoint:rotX:referenceJoint = </r/{}>
+        float physxMimicJoint:rotX:gearing = {}
+    }}
+}}
+"""
+HAND = """
+        def Xform "hand" (
+            prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]
+        )
+        {
+            float physics:mass = 1
+            float3 physics:diagonalInertia = (1, 1, 1.5)
+        }
+    }
+
+    def Ph"""
+
+
+@pytest.mark.parametrize(
+    ("leader", "gearing", "part"),
+    [
+        ("elbow", -2, ""),
+        ("elbow", 2, "float physxMimicJoint:rotX:gearing"),
+        ("other", -2, "rel physxMimicJoint:rotX:referenceJoint"),
+    ],
+)
+def test_mimic_joints_of_two_simulators_that_differ_are_one_finding(
+    write, found, leader, gearing, part
+):
+    text = BODY.replace("    }\n\n    def Ph", HAND, 1).rstrip("}\n") + "\n    }\n"
+    text = HEAD.format("") + text + MIMIC.format(leader, gearing)
+    path = write("r.usda", text)
+    findings, result = found(path, "--select", "contradicting-simulators")
+    finding = findings.get("contradicting-simulators")
+    assert (finding is not None) == bool(part)
+    if finding is not None:
+        assert finding["line"] == line_of(text, part)
+        assert finding["element"]["name"] == "wrist"
+    assert "[unread-contradiction]" not in result.err

@@ -69,5 +69,6 @@ def _read(
         except BaseException:
             folder.remove_new()
             raise
+    robot.contradictions = context.contradictions
     robot.unread = losses.make_findings()
     return Reading(robot, robot.unread)

@@ -12,7 +12,7 @@ from ...diagnostic import Severity
 from ...model.elements import Dynamics, Joint, Limit, Mimic, Vector
 from ...model.mechanism import JointActuator
 from ...model.settings import RESISTANCE
-from .read_stage import Context, convert_float, get_targets, has_schema
+from .read_stage import ROUNDING, Context, convert_float, get_targets, has_schema
 
 _AXES: dict[str, Vector] = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
@@ -213,8 +213,9 @@ def _read_mimic(context: Context, prim: Usd.Prim, units: Units) -> Mimic | None:
         offset = context.get_value(prim, "newton:mimicCoef0") or 0.0
         scale = 1.0 if factor is None else convert_float(factor)
         targets = get_targets(prim, "newton:mimicJoint")
+        _check_physx_mimic(context, prim, targets, scale)
         return _follow(context, prim, targets, scale, convert_float(offset, units.position))
-    for axis in ("rotX", "rotY", "rotZ", "transX", "transY", "transZ"):
+    for axis in _FREEDOMS:
         name = f"physxMimicJoint:{axis}"
         if has_schema(prim, f"PhysxMimicJointAPI:{axis}"):
             gearing = context.get_value(prim, f"{name}:gearing")
@@ -233,6 +234,28 @@ def _read_mimic(context: Context, prim: Usd.Prim, units: Units) -> Mimic | None:
         unit = context.length if units.name == "linear" else 1.0
         return _follow(context, prim, targets, scale, convert_float(offset, unit))
     return None
+
+
+def _check_physx_mimic(context: Context, prim: Usd.Prim, targets: list[str], factor: float) -> None:
+    """Report a mimic joint of PhysX with another leader or factor than Newton's.
+
+    Offsets are not compared, since the unit of PhysX's is not documented.
+    """
+    for axis in _FREEDOMS:
+        name = f"physxMimicJoint:{axis}"
+        if not has_schema(prim, f"PhysxMimicJointAPI:{axis}"):
+            continue
+        gearing = context.get_value(prim, f"{name}:gearing")
+        other = -(1.0 if gearing is None else convert_float(gearing))
+        leader = get_targets(prim, f"{name}:referenceJoint")
+        if leader != targets:
+            values = (", ".join(targets), ", ".join(leader) or "none")
+            names = "newton:mimicJoint", f"{name}:referenceJoint"
+            context.report_contradiction(prim, names[1], dict(zip(names, values, strict=True)))
+        elif not math.isclose(factor, other, rel_tol=ROUNDING):
+            values = (f"{factor:g}", f"{-other:g}")
+            names = "newton:mimicCoef1", f"{name}:gearing"
+            context.report_contradiction(prim, names[1], dict(zip(names, values, strict=True)))
 
 
 def _follow(

@@ -54,9 +54,7 @@ def _read_tensor(context: Context, prim: Usd.Prim) -> SymmetricTensor | None:
     six = _read_newton_tensor(context, prim)
     if six is not None:
         if names := find_contradicting_inertia(context, prim):
-            text = "attributes contradict each other, and the first is read"
-            what = f"{prim.GetName()}: {' and '.join(names)}"
-            context.losses.add("contradiction", text, what, context.get_place(prim, names[1]))
+            context.report_contradiction(prim, names[1], dict.fromkeys(names, ""))
         return six
     six = _read_diagonal_tensor(context, prim)
     if six is None:

@@ -11,6 +11,7 @@ from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
 from ...diagnostic import Severity
 from ...errors import ModelError
+from ...model.contradiction import Contradiction
 from ...model.part import Vector
 from ...model.pose import Pose, Rotation
 from ...model.provenance import Written
@@ -43,6 +44,7 @@ class Context:
         bodies: Prims of rigid bodies by path, in the order of the stage.
         others: Prims of other robots and bodies, which are not read, by path.
         joints: Prims of joints, in the order of the stage.
+        contradictions: Attributes for different simulators that differ.
         names: Name of the link of each body or frame, by path.
         shifts: Pose of the frame of each link in the frame of its prim, by path.
     """
@@ -71,6 +73,7 @@ class Context:
                 self.bodies[str(prim.GetPath())] = prim
             if prim.IsA(UsdPhysics.Joint):
                 self.joints.append(prim)
+        self.contradictions: list[Contradiction] = []
         self.names: dict[str, str] = {}
         self.shifts: dict[str, Pose] = {}
         if not self.bodies and not self.is_ours:
@@ -121,11 +124,25 @@ class Context:
         first = next(iter(found.values()), None)
         for name, number in found.items():
             if first is not None and not math.isclose(number, first, rel_tol=ROUNDING):
-                text = "attributes contradict each other, and the first is read"
-                what = f"{prim.GetName()}: {' and '.join(f'{n} {v:g}' for n, v in found.items())}"
-                self.losses.add("contradiction", text, what, self.get_place(prim, name))
+                self.report_contradiction(prim, name, {n: f"{v:g}" for n, v in found.items()})
                 break
         return first
+
+    def report_contradiction(self, prim: Usd.Prim, name: str, values: dict[str, str]) -> None:
+        """Record attributes that say the same for different simulators, with other values.
+
+        Args:
+            prim: The prim.
+            name: The first attribute that differs from the one that is read.
+            values: Values in words by attribute; the first is read.
+        """
+        place = self.get_place(prim, name)
+        kind = "joint" if prim.IsA(UsdPhysics.Joint) else "link"
+        found = Contradiction(Written(place), kind, prim.GetName(), values)
+        if found not in self.contradictions:
+            self.contradictions.append(found)
+            text = "attributes contradict each other, and the first is read"
+            self.losses.add("contradiction", text, f"{found.name}: {found.shown}", place)
 
     def get_vector(
         self, prim: Usd.Prim, name: str, default: tuple[float, ...]
