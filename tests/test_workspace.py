@@ -170,6 +170,22 @@ def test_a_new_file_changes_what_lists_its_folder():
     assert names(workspace.get_with_overlay({"c": b""}), "d") == ["b"]
 
 
+def test_other_text_in_a_file_does_not_change_what_lists_its_folder():
+    asked = []
+
+    @memoize_by_workspace
+    def names(workspace, folder):
+        asked.append(folder)
+        return [entry.name for entry in workspace.list_folder(folder)], workspace.list_code(folder)
+
+    workspace = Workspace()
+    before = names(workspace, "d")
+    assert names(workspace.get_with_overlay({"d/b": b"edited"}), "d") is before
+    assert asked == ["d"]
+    names(workspace.get_with_overlay({"d/b": b"edited", "d/c": b""}), "d")
+    assert asked == ["d", "d"]
+
+
 def test_many_dependencies_are_shared():
     @memoize_by_workspace
     def there(workspace, number):

@@ -7,7 +7,7 @@ A dependency is a query with the stamp that its path had at the first query. The
 ``there`` whether an entry exists at a path; a broken symbolic link counts
 ``real``  the path without symbolic links
 ``list``  the names in a folder, and which of them are folders
-``code``  the Python files and the folders in a folder, as :func:`list_code` lists them
+``code``  the Python files and the folders in a folder, as :func:`list_code` lists them on disk
 ``env``   the value of an environment variable
 """
 
@@ -90,7 +90,7 @@ class Dependencies:
         if self._real is None or self._real[0] != len(self.stamps):
             real = resolve_all(path for kind, path in self.stamps if kind != "env")
             files = set(real.values())
-            listed = {real[path] for kind, path in self.stamps if kind in ("list", "code")}
+            listed = {real[path] for kind, path in self.stamps if kind == "list"}
             self._real = len(self.stamps), files, listed
         return self._real[1:]
 

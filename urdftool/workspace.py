@@ -86,7 +86,8 @@ class Workspace:
         self.dependencies: Dependencies | None = None
         self._overlay = {_get_key(path): data for path, data in (overlay or {}).items()}
         self._names = frozenset(map(os.path.basename, self._overlay))
-        self._folders = frozenset(map(os.path.dirname, self._overlay))
+        added = (path for path in self._overlay if not os.path.lexists(path))
+        self._folders = frozenset(map(os.path.dirname, added))  # those listed with other names
         self._memos: dict[Hashable, dict[Hashable, tuple[Any, Dependencies]]] = {}
         self._access: Access | None = None
         self._base: Workspace | None = None
