@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
+import trimesh
 
+from urdftool.compare.compare import compare_robots
 from urdftool.compare.mesh_measure import MeshMeasures, measure_distance
 from urdftool.mechanics.reference import turn
 from urdftool.model.load import load
@@ -54,6 +56,71 @@ def test_parts_of_a_mesh_measure_as_the_whole(robot):
     measures = MeshMeasures()
     whole = measures.measure(robot, [(shapes[0], pose)])
     parts = measures.measure(robot, [(shape, pose) for shape in shapes[1:]])
-    assert measure_distance(whole, parts) < 1e-12
+    assert measure_distance(whole, parts, 1e-9) < 1e-12
     one = measures.measure(robot, [(shapes[1], pose)])
-    assert measure_distance(whole, one) > 0.1
+    assert measure_distance(whole, one, 1e-9) > 0.1
+
+
+def _write_pinwheel(path, hand=1.0):
+    """Write a square plate with a hook at each corner, as a fan that turns left or right."""
+    arm = trimesh.creation.box((0.1, 0.4, 0.1))
+    arm.apply_translation((0.3, 0.15 * hand, 0))
+    parts = [trimesh.creation.box((0.6, 0.6, 0.1))]
+    for turn in range(4):
+        parts.append(arm.copy())
+        parts[-1].apply_transform(
+            trimesh.transformations.rotation_matrix(turn * np.pi / 2, (0, 0, 1))
+        )
+    trimesh.util.concatenate(parts).export(path)
+
+
+SHAPE = '<link name="a"><{kind}><origin rpy="{rpy}"/><geometry>{shape}</geometry></{kind}></link>'
+
+
+@pytest.mark.parametrize(
+    ("one", "two", "is_equal"),
+    [
+        (("<box size='.4 .4 .1'/>", "0 0 0"), ("<box size='.4 .4 .1'/>", "0 0 0.785398"), False),
+        (("<box size='.4 .4 .1'/>", "0 0 0"), ("<box size='.4 .4 .1'/>", f"0 0 {np.pi / 2}"), True),
+        (("<box size='.4 .4 .4'/>", "0 0 0"), ("<box size='.4 .4 .4'/>", "0.3 0.2 0.1"), False),
+        (("<box size='.2 .3 .4'/>", f"{np.pi / 2} 0 0"), ("<box size='.2 .4 .3'/>", "0 0 0"), True),
+        (
+            ("<cylinder radius='.1' length='.1'/>", "0 0 0"),
+            ("<cylinder radius='.1' length='.1'/>", "0.3 0 0"),
+            False,
+        ),
+        (
+            ("<cylinder radius='.1' length='.1'/>", "0 0 0"),
+            ("<cylinder radius='.1' length='.1'/>", f"{np.pi} 0 1"),
+            True,
+        ),
+        (
+            ("<mesh filename='left.stl'/>", "0 0 0"),
+            ("<mesh filename='right.stl'/>", "0 0 0"),
+            False,
+        ),
+        (
+            ("<mesh filename='left.stl'/>", "0 0 0"),
+            ("<mesh filename='left.stl' scale='-1 1 1'/>", "0 0 0"),
+            False,
+        ),
+        (
+            ("<mesh filename='right.stl'/>", f"0 0 {np.pi / 2}"),
+            ("<mesh filename='left.stl' scale='-1 1 1'/>", "0 0 0"),
+            True,
+        ),
+        (("<mesh filename='left.stl'/>", "0 0 0"), ("<mesh filename='fine.stl'/>", "0 0 0"), True),
+    ],
+)
+def test_only_symmetries_of_a_shape_are_equal(tmp_path, one, two, is_equal):
+    _write_pinwheel(tmp_path / "left.stl")
+    _write_pinwheel(tmp_path / "right.stl", -1.0)
+    trimesh.load(tmp_path / "left.stl").subdivide().export(tmp_path / "fine.stl")
+    robots = []
+    for name, (shape, rpy) in (("one", one), ("two", two)):
+        path = tmp_path / f"{name}.urdf"
+        links = SHAPE.format(kind="collision", rpy=rpy, shape=shape)
+        path.write_text(f'<robot name="r">{links}</robot>')
+        robots.append(load(path))
+    comparison = compare_robots(*robots)
+    assert ("collisions" not in {one.row for one in comparison.differences}) is is_equal

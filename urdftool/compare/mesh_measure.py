@@ -19,12 +19,16 @@ from ..geometry.reference_patterns import INIT_FROM, MAP, MTLLIB, URI
 from ..mechanics.reference import Array
 from ..model.elements import Geometry, Mesh, Robot
 from ..source.packages import shorten_path
+from .mesh_deviation import measure_deviation
 
 _NAMED = {".obj": MTLLIB, ".mtl": MAP, ".dae": INIT_FROM, ".gltf": URI}
 """Expressions of the names of other files, by the suffix of a file."""
 
 _HEAD = 4096
 """Bytes of an OBJ in which its file of materials is named."""
+
+
+Faces = npt.NDArray[np.integer]
 
 
 @dataclass(frozen=True)
@@ -37,6 +41,7 @@ class Measure:
         area: Area [m²].
         center: Center of the area [m].
         second: Second moments of the area about the center, divided by the area [m²].
+        parts: The meshes, with the pose of each, 4 × 4.
     """
 
     low: Array
@@ -44,11 +49,20 @@ class Measure:
     area: float
     center: Array
     second: Array
+    parts: tuple[tuple[_Surface, Array], ...]
 
     @property
     def size(self) -> float:
         """Return the length of the diagonal of the box [m]."""
         return float(np.linalg.norm(self.high - self.low))
+
+    def compute_corners(self) -> Array:
+        """Compute the corners of all triangles [m], shape (n, 3, 3)."""
+        placed = [
+            (surface.points @ pose[:3, :3].T + pose[:3, 3])[surface.faces]
+            for surface, pose in self.parts
+        ]
+        return np.concatenate(placed)
 
 
 class _Surface(NamedTuple):
@@ -56,18 +70,19 @@ class _Surface(NamedTuple):
 
     Attributes:
         points: Vertices of its triangles [m], shape (n, 3).
+        faces: Numbers of the vertices of each triangle, shape (m, 3).
         area: Area [m²].
         center: Center of the area [m].
         second: Second moments of the area about the center, divided by the area [m²].
     """
 
     points: Array
+    faces: Faces
     area: float
     center: Array
     second: Array
 
 
-Faces = npt.NDArray[np.integer]
 _Key = tuple[str, tuple[float, float, float]]
 
 
@@ -227,9 +242,8 @@ def _make_surface(vertices: Array, faces: Faces) -> _Surface:
     for middle in ((a + b) / 2, (b + c) / 2, (c + a) / 2):  # exact for quadratic functions
         arm = middle - center
         second += (arm * (areas / 3)[:, None]).T @ arm
-    used = np.zeros(len(vertices), dtype=bool)
-    used[faces.reshape(-1)] = True
-    return _Surface(vertices[used], total, center, second / total)
+    used, numbers = np.unique(faces, return_inverse=True)
+    return _Surface(vertices[used], numbers.reshape(faces.shape), total, center, second / total)
 
 
 def _place(surface: _Surface, pose: Array) -> Measure:
@@ -238,7 +252,7 @@ def _place(surface: _Surface, pose: Array) -> Measure:
     points = surface.points @ turn.T
     low, high = points.min(axis=0) + at, points.max(axis=0) + at
     center, second = turn @ surface.center + at, turn @ surface.second @ turn.T
-    return Measure(low, high, surface.area, center, second)
+    return Measure(low, high, surface.area, center, second, ((surface, pose),))
 
 
 def _unite(parts: list[Measure]) -> Measure:
@@ -251,14 +265,24 @@ def _unite(parts: list[Measure]) -> Measure:
         second += part.area / area * (part.second + np.outer(arm, arm))
     low = np.min([part.low for part in parts], axis=0)
     high = np.max([part.high for part in parts], axis=0)
-    return Measure(low, high, area, center, second)
+    together = tuple(surface for part in parts for surface in part.parts)
+    return Measure(low, high, area, center, second, together)
 
 
-def measure_distance(one: Measure, two: Measure) -> float:
-    """Return how far two surfaces are apart [m]: by box, area, center and second moments."""
+def measure_distance(one: Measure, two: Measure, tolerance: float) -> float:
+    """Return how far two surfaces are apart [m]: by box, area, center and second moments.
+
+    If these agree, points of each surface are measured to the other: a mesh and its mirror image
+    may agree in all of them.
+
+    Args:
+        one: A surface.
+        two: The other.
+        tolerance: Distance of equal surfaces [m].
+    """
     size = max(one.size, two.size, 1e-9)
     area = abs(one.area - two.area) / max(one.area, two.area) * size
-    return float(
+    distance = float(
         max(
             np.abs(one.low - two.low).max(),
             np.abs(one.high - two.high).max(),
@@ -267,3 +291,7 @@ def measure_distance(one: Measure, two: Measure) -> float:
             area / 100,
         )
     )
+    if distance > tolerance:
+        return distance
+    corners = one.compute_corners(), two.compute_corners()
+    return max(distance, measure_deviation(*corners, tolerance))

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import NamedTuple
+
+import numpy as np
 
 from ..mechanics.reference import Array, get_origin_matrix
 from ..model.elements import (
@@ -56,6 +59,22 @@ def get_size(geometry: Geometry) -> tuple[float, float, float] | None:
     if isinstance(geometry, Plane):
         return 1.0, 1.0, 0.0
     return None
+
+
+def measure_corner_distance(
+    *boxes: tuple[tuple[float, float, float], Array],
+) -> float:
+    """Return the largest distance of a corner of one of two boxes to the nearest of the other [m].
+
+    It is 0 for boxes that are one solid, such as a cube that is turned by 90°.
+
+    Args:
+        boxes: Two boxes, each as its size [m] and its pose, 4 × 4.
+    """
+    signs = np.array(list(product((-0.5, 0.5), repeat=3)))
+    one, two = (signs * size @ pose[:3, :3].T + pose[:3, 3] for size, pose in boxes)
+    apart = np.linalg.norm(one[:, None] - two[None], axis=2)
+    return float(max(apart.min(axis=0).max(), apart.min(axis=1).max()))
 
 
 def describe_what(kind: str, placed: Placed) -> str:

@@ -11,10 +11,12 @@ from ..mechanics.reference import Array, get_origin_matrix
 from ..model.appearance import find_unknown_script
 from ..model.drawn import list_drawn_once
 from ..model.elements import (
+    Box,
     Capsule,
     Collision,
     Cone,
     Cylinder,
+    Ellipsoid,
     Material,
     Mesh,
     Plane,
@@ -32,7 +34,7 @@ from .frames import format_vector, invert, measure_largest
 from .looks import compare_looks, is_colored_by_file, skip_file_colors
 from .mesh_measure import Measure, measure_distance
 from .pair import Match, Pair, add_presence, locate
-from .placed import Placed, describe, describe_what, get_size
+from .placed import Placed, describe, describe_what, get_size, measure_corner_distance
 from .settings import compare_surfaces
 from .uncompared import MESHES, UNREAD, Uncompared
 from .unknown_shapes import explain_unknown, has_equal_content
@@ -182,15 +184,18 @@ def _measure(state: _Comparing, x: Placed, y: Placed) -> float:
         same = get_shape_name(x.geometry) == get_shape_name(y.geometry)
         return measure_largest(invert(x.pose) @ y.pose) if same else np.inf
     distance = float(np.linalg.norm(x.pose[:3, 3] - y.pose[:3, 3]))
-    turned, turned2 = (
-        p.pose[:3, :3] @ np.diag(s) @ p.pose[:3, :3].T for p, s in ((x, size), (y, size2))
-    )
-    spread = float(np.abs(turned - turned2).max())
-    along = 0.0
-    if isinstance(x.geometry, Cone | Plane):
-        along = float(np.linalg.norm(x.pose[:3, 2] - y.pose[:3, 2])) * float(max(size))
-    sizes = float(np.abs(np.array(size) - np.array(size2)).max())
-    return max(distance, spread, along, sizes)
+    if isinstance(x.geometry, Box):
+        return measure_corner_distance((size, x.pose), (size2, y.pose))
+    if isinstance(x.geometry, Sphere | Ellipsoid):
+        turned, turned2 = (
+            p.pose[:3, :3] @ np.diag(s) @ p.pose[:3, :3].T for p, s in ((x, size), (y, size2))
+        )
+        return max(distance, float(np.abs(turned - turned2).max()))
+    axes = [x.pose[:3, 2] - y.pose[:3, 2]]
+    if not isinstance(x.geometry, Cone | Plane):  # both ends are equal
+        axes.append(x.pose[:3, 2] + y.pose[:3, 2])
+    along = min(float(np.linalg.norm(axis)) for axis in axes) * float(max(*size, *size2))
+    return max(distance, along, float(np.abs(np.array(size) - np.array(size2)).max()))
 
 
 def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
@@ -209,7 +214,7 @@ def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
         same = one.filename.rpartition("/")[2] == two.filename.rpartition("/")[2]
         same = same and np.allclose(one.scale, two.scale)
         return measure_largest(invert(x.pose) @ y.pose) if same else np.inf
-    return _round_off(measures)
+    return _round_off(measures, state.tolerance)
 
 
 def _record_unread(state: _Comparing, x: Placed, y: Placed) -> None:
@@ -253,10 +258,10 @@ def _measure_union(
     return None if found[0] is None or found[1] is None else (found[0], found[1])
 
 
-def _round_off(measures: tuple[Measure, Measure]) -> float:
+def _round_off(measures: tuple[Measure, Measure], tolerance: float) -> float:
     """Return the distance of two surfaces less the rounding error of 32-bit files [m]."""
-    distance = measure_distance(*measures)
-    return max(0.0, distance - 2e-6 * max(measure.size for measure in measures))
+    rounding = 2e-6 * max(measure.size for measure in measures)
+    return max(0.0, measure_distance(*measures, tolerance + rounding) - rounding)
 
 
 def _match_unions(state: _Comparing, match: Match) -> None:
@@ -279,9 +284,10 @@ def _match_union(state: _Comparing, one: list[Placed], two: list[Placed]) -> Non
     if not one or not two or len(one) == len(two) == 1:
         return
     measures = _measure_union(state, one, two)
-    if measures is None or _round_off(measures) > state.tolerance:
+    distance = np.inf if measures is None else _round_off(measures, state.tolerance)
+    if distance > state.tolerance:
         return
-    _add(state, one[0], two[0], _round_off(measures), "")
+    _add(state, one[0], two[0], distance, "")
     _compare_surfaces(state, one[0], two[0])
     state.one = [p for p in state.one if not _contains(one, p)]
     state.two = [p for p in state.two if not _contains(two, p)]

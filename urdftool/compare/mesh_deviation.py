@@ -1,0 +1,50 @@
+"""Distance of two meshes, by points of each on the other."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..mechanics.reference import Array
+
+_SAMPLES = 64
+"""Number of points of each mesh that are compared, if its triangles differ; chosen, no source."""
+
+
+def measure_deviation(one: Array, two: Array, enough: float) -> float:
+    """Return how far points of two meshes are from the other mesh [m].
+
+    The points are the centers of triangles, of each mesh as many as of equal parts of its area. If
+    both have the same triangles in the same order, all their corners are compared.
+
+    Args:
+        one: Corners of the triangles [m], shape (n, 3, 3).
+        two: Corners of the triangles of the other mesh [m], shape (m, 3, 3).
+        enough: Distance [m] from which the result need not be exact.
+    """
+    if one.shape == two.shape:
+        distance = float(np.abs(one - two).max(initial=0.0))
+        if distance <= enough:
+            return distance
+    return max(_measure_one_sided(one, two, enough), _measure_one_sided(two, one, enough))
+
+
+def _measure_one_sided(one: Array, two: Array, enough: float) -> float:
+    from trimesh.triangles import closest_point
+
+    edges = one[:, 1:] - one[:, :1]
+    area = np.cumsum(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1))
+    parts = (np.arange(_SAMPLES) + 0.5) / _SAMPLES * area[-1]
+    chosen = np.unique(np.minimum(np.searchsorted(area, parts), len(one) - 1))
+    centers = two.mean(axis=1)
+    radii = np.linalg.norm(two - centers[:, None], axis=2).max(axis=1)
+    largest = 0.0
+    for point in one[chosen].mean(axis=1):
+        apart = np.linalg.norm(centers - point, axis=1)
+        nearest = float(apart.min())
+        if nearest > largest:
+            near = two[apart - radii <= nearest]
+            on = closest_point(near, np.broadcast_to(point, (len(near), 3)))  # type: ignore[no-untyped-call,unused-ignore]
+            largest = max(largest, float(np.linalg.norm(on - point, axis=1).min()))
+        if largest > enough:
+            break
+    return largest
