@@ -7,13 +7,15 @@ A dependency is a query with the stamp that its path had at the first query. The
 ``there`` whether an entry exists at a path; a broken symbolic link counts
 ``real``  the path without symbolic links
 ``list``  the names in a folder, and which of them are folders
-``code``  the Python files and the folders in a folder, as :func:`list_code` lists them on disk
+``code``  the files of Python code and the folders in a folder, as :func:`list_code` lists them on
+          disk
 ``env``   the value of an environment variable
 """
 
 from __future__ import annotations
 
 import os
+import re
 import stat
 import time
 from collections.abc import Callable, Iterable, Set
@@ -190,11 +192,16 @@ def _digest_listing(path: str) -> str:
     return sha256("".join(lines).encode("utf-8", "surrogateescape")).hexdigest()
 
 
-def list_code(path: str) -> tuple[list[str], list[str]]:
-    """Return the sorted names of the Python files and of the folders in a folder.
+_CODE = re.compile(r".*\.(?:py|ipynb)|[^.]+|pyproject\.toml|setup\.cfg|.*require.*\.txt")
+"""Names of the files that can import or require a library."""
 
-    Hidden names, folders of what tools make or install, and virtual environments are left out:
-    what a test or a compiler writes there does not change which code a project has.
+
+def list_code(path: str) -> tuple[list[str], list[str]]:
+    """Return the sorted names of the files of Python code and of the folders in a folder.
+
+    Notebooks, scripts without a suffix and files of requirements are among the files. Hidden names,
+    folders of what tools make or install, and virtual environments are left out: what a test or
+    a compiler writes there does not change which code a project has.
 
     Raises:
         OSError: The folder cannot be listed.
@@ -204,7 +211,7 @@ def list_code(path: str) -> tuple[list[str], list[str]]:
         for entry in entries:
             if entry.name == "pyvenv.cfg":
                 return [], []
-            if entry.name.endswith(".py"):
+            if _CODE.fullmatch(entry.name) and not entry.is_dir():
                 files.append(entry.name)
             elif (
                 not entry.name.startswith(".")

@@ -66,10 +66,10 @@ def _write_pinwheel(path, hand=1.0):
     arm = trimesh.creation.box((0.1, 0.4, 0.1))
     arm.apply_translation((0.3, 0.15 * hand, 0))
     parts = [trimesh.creation.box((0.6, 0.6, 0.1))]
-    for turn in range(4):
+    for quarter in range(4):
         parts.append(arm.copy())
         parts[-1].apply_transform(
-            trimesh.transformations.rotation_matrix(turn * np.pi / 2, (0, 0, 1))
+            trimesh.transformations.rotation_matrix(quarter * np.pi / 2, (0, 0, 1))
         )
     trimesh.util.concatenate(parts).export(path)
 

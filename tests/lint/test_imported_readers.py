@@ -58,6 +58,28 @@ def test_an_inertia_that_no_reader_of_the_project_takes_is_off(tmp_path, code, r
     assert ("placeholder-inertia" in _names(tmp_path, code)) is reported
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("b.py", "import os, mujoco\n"),
+        ("b.py", "import os, \\\n    mujoco\n"),
+        ("b.py", "if True: import pydrake\n"),
+        ("b.py", "\ufeffimport mujoco\n"),
+        ("b.py", 'importlib.import_module("mujoco")\n'),
+        ("b.py", "import gymnasium_robotics\n"),
+        ("b.ipynb", '{"source": ["import mujoco\\n"]}'),
+        ("run", "#!/usr/bin/env python3\nimport mujoco\n"),
+        ("requirements.txt", "mujoco>=3\n"),
+        ("pyproject.toml", '[project]\ndependencies = ["mujoco"]\n'),
+        ("b.py", "from omni.isaac import core\n"),
+        ("b.py", "#" * (2 << 20)),
+    ],
+)
+def test_what_names_another_reader_counts_as_use(tmp_path, name, text):
+    (tmp_path / name).write_text(text)
+    assert "placeholder-inertia" in _names(tmp_path, "import pybullet\n")
+
+
 def test_it_is_reported_if_its_rule_or_a_reader_is_named(tmp_path):
     code = "import pybullet\n"
     assert "placeholder-inertia" in _names(tmp_path, code, targets=["mujoco"])

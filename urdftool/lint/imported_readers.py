@@ -22,6 +22,7 @@ from ..workspace import Workspace, memoize_by_workspace
 
 _READERS = {
     **dict.fromkeys(("mujoco", "mujoco_py", "dm_control", "robosuite", "brax"), "mujoco"),
+    **dict.fromkeys(("mujoco_warp", "mujoco_playground", "gymnasium_robotics"), "mujoco"),
     **dict.fromkeys(("pybullet", "pybullet_utils", "pybullet_data"), "pybullet"),
     **dict.fromkeys(("pinocchio", "crocoddyl", "tsid", "pink", "placo"), "pinocchio"),
     **dict.fromkeys(("jiminy_py", "gym_jiminy"), "pinocchio"),
@@ -40,12 +41,23 @@ _OTHER_ENGINES = frozenset(
 )
 """Libraries of dynamics, simulators and ROS, whose behavior few effects describe."""
 
+_WORDS = frozenset(("adam", "chrono", "genesis", "gz", "newton", "omni", "pink", "scenario"))
+"""Names of libraries that are words too: only where a line imports them."""
+
 _PACKAGING = ("pyproject.toml", "setup.py", "PKG-INFO", ".git")
 _IMPORT = re.compile(rb"(?m)^[ \t]*(?:import|from)[ \t]+(\w+)")
+_IMPORT_LINE = re.compile(rb"\b(?:import|from)\b[^\n]*(?:\\\r?\n[^\n]*)*")
+_NAMED = re.compile(
+    rb"\b(?:%s)\b" % b"|".join(sorted(n.encode() for n in {*_READERS, *_OTHER_ENGINES} - _WORDS))
+)
+_WORD = re.compile(rb"\w+")
 _KEEPS_INERTIA = b"URDF_USE_INERTIA_FROM_FILE"
 
 _FILES = _FOLDERS = 400
-"""Maximum number of Python files and of folders; of more, none is read. Chosen, no source."""
+"""Maximum number of files and of folders; of more, none is read. Chosen, no source."""
+
+_BYTES = 1 << 20
+"""Maximum size of a file of code; of a larger one, nothing is known. Chosen, no source."""
 
 _SIMULATORS = frozenset(("gz", "gazebo-classic", "mujoco", "pybullet", "drake", "newton"))
 
@@ -97,6 +109,11 @@ def _is_packaged(files: Workspace, folder: Path, holds_module: bool) -> bool:
 
 @memoize_by_workspace
 def _read_imports(files: Workspace, folder: str) -> frozenset[str] | None:
+    """Return the readers that code imports or names; None if it imports none.
+
+    A name in other text, such as a requirement, a module that is imported by its name or a comment,
+    counts as use, since it may be one.
+    """
     paths: list[str] = []
     waiting = [folder]
     for place in waiting:
@@ -105,17 +122,22 @@ def _read_imports(files: Workspace, folder: str) -> frozenset[str] | None:
         found, folders = files.list_code(place)
         paths += (os.path.join(place, name) for name in found)
         waiting += (os.path.join(place, name) for name in folders)
-    modules: set[str] = set()
+    imported: set[bytes] = set()
+    named: set[bytes] = set()
     for path in paths:
         try:
-            text = files.read_bytes(path)
+            text = files.read_bytes(path, _BYTES)
         except (OSError, UrdftoolError):
-            continue
+            return None
         if _KEEPS_INERTIA in text:
             return None
-        modules.update(word.decode() for word in _IMPORT.findall(text))
-    readers = frozenset(_READERS[name] for name in modules & _READERS.keys())
-    return None if not readers or modules & _OTHER_ENGINES else readers
+        imported.update(_IMPORT.findall(text))
+        named.update(_NAMED.findall(text))
+        named.update(word for line in _IMPORT_LINE.findall(text) for word in _WORD.findall(line))
+    if _READERS.keys().isdisjoint(name.decode() for name in imported):
+        return None
+    names = {name.decode() for name in named}
+    return None if names & _OTHER_ENGINES else frozenset(_READERS[n] for n in names & {*_READERS})
 
 
 def is_for_other_readers(rule: Rule, finding: Finding, used: frozenset[str] | None) -> bool:
