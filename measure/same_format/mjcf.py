@@ -164,6 +164,8 @@ def list_values(model: mujoco.MjModel) -> dict[str, Counter[tuple[float, ...]]]:
                 count = len(rows) if part is model and rows.ndim else 1
                 rows = rows.reshape(count, -1) if count else rows.reshape(0, 1)
                 found[name] = Counter(map(tuple, np.round(rows, _DIGITS) + 0.0))
+                if name.endswith("_user"):  # zeros of parts without data, if others have some
+                    found[name] = Counter({k: n for k, n in found[name].items() if any(k)})
     return found
 
 

@@ -139,3 +139,12 @@ def test_values_that_name_files_outside(urdftool, bundle, value):
     path.write_text(path.read_text().replace("</robot>", block + "</robot>"))
     seal(bundle)
     assert codes(urdftool) == ["points-out"]
+
+
+@pytest.mark.parametrize("command", ["info", "lint", "graph"])
+def test_other_commands_say_that_a_bundle_is_a_zip_file(urdftool, bundle, command):
+    assert urdftool("bundle", "r.urdf", "-o", "b.zip").code == 0
+    result = urdftool(command, "b.zip")
+    assert result.code in (1, 2)
+    assert "is a zip file, not a USDZ package; extract it" in result.out + result.err
+    assert "PK" not in result.out + result.err

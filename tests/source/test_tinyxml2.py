@@ -12,6 +12,7 @@ ACCEPTED = {
     "two dashes in a comment": ("<!-- a -- b -->" + ROOT, 1),
     "a dash at the end of a comment": ("<!-- a --->" + ROOT, 1),
     "a declaration without a version": ("<?xml?>" + ROOT, 1),
+    "no blank between attributes": (ROOT.replace('"m"', '"m"\n canonical_link="a"b="c"d=""'), 2),
 }
 REJECTED = {
     "a comment before the declaration": '<!-- a --><?xml version="1.0"?>' + ROOT,
@@ -47,3 +48,10 @@ def test_another_defect_is_rejected(name):
 def test_well_formed_text_has_no_defect():
     read = parse(ROOT)
     assert (read.error, read.surplus) == (None, None)
+
+
+def test_a_missing_blank_moves_what_follows_by_a_column():
+    read = parse(ROOT.replace('"m"', '"m"pose="1"\n b="c"'))
+    assert read.document.root.find_child("model").attributes == {"name": "m", "pose": "1", "b": "c"}
+    assert read.error.message == "a blank is missing between two attributes"
+    assert read.error.at.column == ROOT.index('m"') + 3

@@ -1,7 +1,7 @@
 """Parsing of files as TinyXML2 does, the XML reader of MuJoCo and libsdformat.
 
 TinyXML2 accepts some text that is not well-formed: blanks before ``<?xml …?>``, a wrong one, ``--``
-in comments, and end tags after the root element.
+in comments, no blank between attributes, and end tags after the root element.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from typing import NamedTuple
 from ..errors import XmlError
 from .document import Document, parse
 from .location import Place, SourceFile
-from .well_formed import drop_end_tags_after_root, repair
+from .well_formed import drop_end_tags_after_root, repair, separate_attributes
 
 
 class Tolerated(NamedTuple):
     """A parsed file, and what other parsers reject in it.
 
     Attributes:
-        document: The document, with the offsets of the file.
+        document: The document, with the offsets of the file, but for missing blanks.
         error: First defect; None if the file is well-formed or has only end tags too many.
         surplus: First end tag after the root element, if any.
     """
@@ -39,10 +39,10 @@ def parse_as_tinyxml2(file: SourceFile) -> Tolerated:
     except XmlError as error:
         if error.rule == "content-before-declaration" and error.case != "blanks":
             raise
-        repaired = repair(file)
-        dropped = drop_end_tags_after_root(repaired or file)
-        if repaired is None and dropped is None:
+        text = repair(file) or file
+        text = separate_attributes(text) or text
+        is_repaired = text is not file
+        text, surplus = drop_end_tags_after_root(text) or (text, None)
+        if text is file:
             raise
-        text, surplus = dropped or (repaired, None)
-        assert text is not None
-        return Tolerated(parse(text), error if repaired else None, surplus)
+        return Tolerated(parse(text), error if is_repaired else None, surplus)

@@ -158,6 +158,8 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
         reason = "a NUL byte is in the file, which XML does not allow; remove it"
     elif reason == _INVALID and data[offset - 1 : offset + 1] == b"</":
         reason = f"</{closing}> is an end tag, but no element is open here; remove it"
+    elif reason == _INVALID and _is_after_value(data, offset):
+        reason = "a blank is missing between two attributes"
     elif data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
         reason = f'the XML declaration is invalid ({reason}); use <?xml version="1.0"?>'
         case = "a wrong declaration"
@@ -206,6 +208,36 @@ def _find_open_quote(data: bytes, offset: int) -> int:
         elif data[at] == data[quote]:
             quote = -1
     return quote
+
+
+def _is_after_value(data: bytes, offset: int) -> bool:
+    """Tell whether an attribute begins directly behind the value of the one before."""
+    return data[offset - 1 : offset] in (b'"', b"'") and data[offset : offset + 1].isalpha()
+
+
+def separate_attributes(file: SourceFile) -> SourceFile | None:
+    """Return a file with blanks between attributes; None if none is missing.
+
+    Each blank moves what follows in its line by one column.
+    """
+    data = file.data
+    for _ in range(_MOST_BLANKS):
+        parser = expat.ParserCreate()
+        try:
+            parser.Parse(data, True)
+        except expat.ExpatError as error:
+            at = parser.ErrorByteIndex
+            if expat.ErrorString(error.code) == _INVALID and _is_after_value(data, at):
+                data = data[:at] + b" " + data[at:]
+                continue
+        except ValueError:
+            pass
+        break
+    return None if data == file.data else SourceFile(file.path, data, file.encoding)
+
+
+_MOST_BLANKS = 100
+"""Number of missing blanks in a file, each of which is another run of the parser. Chosen."""
 
 
 def _is_in_comment(data: bytes, offset: int) -> bool:

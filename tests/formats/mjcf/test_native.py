@@ -37,6 +37,8 @@ KEPT = (
     "group of a joint",
     "size of a site",
     "sleep policy",
+    "fluid shape",
+    "user data of a geom",
 )
 
 

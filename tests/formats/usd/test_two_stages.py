@@ -83,6 +83,12 @@ def test_an_edit_is_named(differ, name):
     assert what in differ(new.join(WHOLE.rsplit(old, 1)))
 
 
+def test_other_units_are_one_difference(differ):
+    text = WHOLE.replace("metersPerUnit = 1", "metersPerUnit = 0.01\n    kilogramsPerUnit = 0.001")
+    assert differ(text).count("units") == 1
+    assert not any("PerUnit" in what for what in differ(text))
+
+
 def test_equal_stages_and_values_of_rows_are_no_difference(differ):
     assert differ(WHOLE) == []
     assert differ(WHOLE.replace("stiffness = 2", "stiffness = 3").replace("= 180", "= 90")) == []

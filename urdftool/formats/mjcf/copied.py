@@ -10,10 +10,13 @@ from ...model.mechanism import NativeElement
 from ..common.drive_choice import AUTO
 from .options import Options
 from .read_extras import REFERENCE
-from .read_native_table import KINDS
+from .read_native_table import KINDS, PARTS
 
-_PREFIX = {"camera": "cam", "material": "mat", "body": "mocap"}
+_PREFIX = {"camera": "cam", "material": "mat", "body": "mocap", "geom": "geom"}
 """Prefix of the fields of MuJoCo's model of parts."""
+
+_OF_PART = ("", "link")
+"""First words of the sections of parts, of which unnamed ones are under their link."""
 
 _UNREAD = {
     "tendon": ("tendon",),
@@ -47,7 +50,13 @@ def list_copied(robot: Robot) -> set[str]:
     """Return the kinds of MuJoCo's model that copied elements of a robot are of."""
     native = list_native(robot)
     kinds = {KINDS[one.section][0] for one in native if one.section in KINDS}
-    return kinds | {_PREFIX[one.tag] for one in native if one.tag in _PREFIX and not one.section}
+    parts = (one for one in native if one.section.partition(" ")[0] in _OF_PART)
+    return kinds | {_PREFIX[one.tag] for one in parts if one.tag in _PREFIX and _has_fields(one)}
+
+
+def _has_fields(one: NativeElement) -> bool:
+    """Tell whether the attributes of a part are values; of geoms, data of users are not."""
+    return one.tag != "geom" or not one.attributes.keys().isdisjoint(PARTS["geom"][0])
 
 
 def has_copied_home(robot: Robot, options: Options) -> bool:

@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from ...dependencies import Dependencies
-from ...errors import UrdftoolError
+from ...errors import SourceError, UrdftoolError
 from ...extras import is_installed, make_missing_error
 from ...limited import Limits, call_with_limits
 from ...source.document import STDIN
@@ -54,9 +54,12 @@ def read(
         SourceError: The file cannot be read.
         ModelError: OpenUSD does not open it, or it has no rigid body.
     """
+    opened = open_description(path, file, packages, workspace)
+    if opened.file.data.startswith(b"PK") and opened.file.path.endswith(".zip"):
+        text = "is a zip file, not a USDZ package; extract it, and name the description in it"
+        raise SourceError(text, path=path)
     if not is_installed("pxr"):
         raise make_missing_error("pxr", "a USD file")
-    opened = open_description(path, file, packages, workspace)
     folder = Path(mesh_folder) if mesh_folder is not None else cache_folder("usd-meshes")
     opened.packages.access.allow(folder)
     with (

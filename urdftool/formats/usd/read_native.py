@@ -57,8 +57,7 @@ def add_native(context: Context, robot: Robot, joints: Iterable[NamedJoint]) -> 
 def _make_stage(context: Context, base: Base | None) -> NativeElement:
     """Return the up axis and the units of the stage, and the pose of the base in it."""
     up = str(UsdGeom.GetStageUpAxis(context.stage))
-    units = {"metersPerUnit": context.length, "kilogramsPerUnit": context.mass}
-    attributes = {"upAxis": up, **{name: f"{value:g}" for name, value in units.items()}}
+    attributes = {"upAxis": up, "units": f"{context.length:g} m, {context.mass:g} kg"}
     origin = base.origin if base is not None else None
     pose = (0.0,) * 6 if origin is None else (*origin.xyz, *origin.rpy)
     written = context.get_written(context.stage.GetPseudoRoot())
