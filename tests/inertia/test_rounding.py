@@ -9,9 +9,10 @@ from tests.mechanics.bodies import move
 from urdftool.inertia import solids
 from urdftool.inertia.inertia_error import InertiaError
 from urdftool.inertia.requirements import is_consistent
-from urdftool.inertia.rounding import number_text, round_number, round_properties
+from urdftool.inertia.rounding import round_number, round_properties
 from urdftool.mechanics.spatial_inertia import SpatialInertia
 from urdftool.mechanics.tensor import make_diagonal_tensor, measure_consistency
+from urdftool.model.numbers import number_text
 
 
 def test_noise_goes_and_digits_stay():

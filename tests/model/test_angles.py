@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdftool.formats.common.numbers import format_pose_text, number_text
 from urdftool.model.angles import format_angles, restore_angle
+from urdftool.model.numbers import format_pose_text, number_text
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import as_tensor, get_components
-from .rounding import DIGITS, format_numbers_text, number_text
+from ..model.numbers import format_numbers_text, number_text
+from .rounding import DIGITS
 from .shapes import SHAPES, THICKNESS, Shape, Sizes
 
 NAMESPACE = "http://www.ros.org/wiki/xacro"

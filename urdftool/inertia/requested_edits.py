@@ -12,12 +12,13 @@ from dataclasses import dataclass, field, replace
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import COMPONENTS, as_tensor, get_components, rotate_tensor
 from ..model.elements import Link
+from ..model.numbers import format_numbers_text, number_text
 from ..model.pose import transpose
 from ..model.read import number, parse_numbers
 from ..source.document import Element
 from .link_review import LinkReview, get_inertial_rotation
 from .requirements import require_consistent
-from .rounding import format_numbers_text, number_text, round_properties
+from .rounding import round_properties
 
 _SAME = 1e-11
 """Relative difference of numbers that are written with 12 digits. Chosen, no source."""

@@ -1,16 +1,16 @@
-"""Formatting of numbers: twelve significant digits, without arithmetic noise.
+"""Rounding of mass properties: twelve significant digits, without arithmetic noise.
 
 The last few of the sixteen digits of a double are noise: 0.18 · 0.0225 / … gives
-0.00028350000000000003. Numbers are rounded to twelve digits and printed as the shortest text that
-reads back as the same number. Products of inertia and coordinates below 1e-12 of the body's size
-are remnants of rotations and become zero. If rounding would violate the triangle inequality, as for
-a thin plate, more digits are kept.
+0.00028350000000000003. Numbers are rounded to twelve digits; :mod:`urdftool.model.numbers` writes
+them as the shortest text that reads back as the same number. Products of inertia and coordinates
+below 1e-12 of the body's size are remnants of rotations and become zero. If rounding would violate
+the triangle inequality, as for a thin plate, more digits are kept.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import ROUNDING, SymmetricTensor, as_tensor, measure_consistency, trace_of
@@ -54,18 +54,6 @@ def _remove_noise(values: Sequence[float], size: float) -> list[float]:
 def round_number(value: float, digits: int = DIGITS) -> float:
     """Round a number to significant digits; the result is never a negative zero."""
     return float(f"{value:.{digits}g}") + 0.0
-
-
-def number_text(value: float) -> str:
-    """Format a number as the shortest text that reads back equal; integers have no point."""
-    if value == int(value) and abs(value) < 1e16:
-        return str(int(value))
-    return repr(float(value))
-
-
-def format_numbers_text(values: Iterable[float]) -> str:
-    """Format numbers separated by spaces."""
-    return " ".join(number_text(float(value)) for value in values)
 
 
 def _make_consistent(tensor: SymmetricTensor) -> SymmetricTensor:

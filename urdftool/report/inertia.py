@@ -6,9 +6,10 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from ..inertia.rounding import format_numbers_text, number_text, round_number
+from ..inertia.rounding import round_number
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import COMPONENTS, SymmetricTensor, compute_principal_axes, get_components
+from ..model.numbers import format_numbers_text, number_text
 
 
 def format_urdf(properties: SpatialInertia) -> str:

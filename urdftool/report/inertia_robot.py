@@ -9,11 +9,12 @@ from typing import Any
 from ..control_characters import escape_controls
 from ..inertia.comparison import Comparison
 from ..inertia.link_review import LinkReview
-from ..inertia.rounding import number_text, round_properties
+from ..inertia.rounding import round_properties
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import SymmetricTensor, get_components, rotate_tensor
 from ..mechanics.typo_detection import Proposal
 from ..model.elements import Link
+from ..model.numbers import number_text
 from ..model.pose import make_pose
 from ..source.location import Place
 from .counted import format_count

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from urdftool.formats.common.numbers import number_text, round_noise
 from urdftool.formats.mjcf.options import Options
 from urdftool.formats.mjcf.verify import verify_copy
 from urdftool.formats.mjcf.write import write as write_mjcf
 from urdftool.model.load import load
+from urdftool.model.numbers import number_text, round_noise
 
 from .robots import BOX, INERTIAL, export, find, joint, link, robot, tree
 

@@ -15,10 +15,10 @@ from lxml import etree
 
 from ...model.elements import Joint, Robot
 from ...model.mechanism import JointActuator
+from ...model.numbers import format_numbers_text, number_text
 from ..common.actuator_config import JointSettings
 from ..common.drive_choice import AUTO, Drive, list_drives
 from ..common.joint_loads import JointLoad
-from ..common.numbers import format_numbers_text, number_text
 from ..common.servo_gains import (
     TIMESTEP,
     Gain,

@@ -6,7 +6,7 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Joint
-from ..common.numbers import format_numbers_text
+from ...model.numbers import format_numbers_text
 from ..written import Written
 from .loops import STIFF, build_loop_equalities
 from .structure import Structure, get_locked_at

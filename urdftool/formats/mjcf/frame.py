@@ -7,6 +7,7 @@ import math
 from lxml import etree
 
 from ...model.elements import Origin, Vector
+from ...model.numbers import format_numbers_text
 from ...model.pose import (
     Pose,
     Quaternion,
@@ -14,7 +15,6 @@ from ...model.pose import (
     quaternion_from_rpy,
     rotation_from_quaternion,
 )
-from ..common.numbers import format_numbers_text
 
 _SAME = 1e-15
 """Parts of a quaternion below this, relative to the largest, are rounding."""

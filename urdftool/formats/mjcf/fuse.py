@@ -15,9 +15,9 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...mechanics.spatial_inertia import combine
 from ...model.elements import Robot
+from ...model.numbers import format_numbers_text
 from ...model.pose import Pose, rotate
 from ..common.naming import UniqueNames
-from ..common.numbers import format_numbers_text
 from ..written import Written
 from .body import Bodies
 from .copied import list_native

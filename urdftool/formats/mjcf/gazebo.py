@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from ...diagnostic import Severity
 from ...model.blocks import list_elements
 from ...model.elements import Collision, GazeboExtension, Link, Robot
+from ...model.numbers import format_content, format_numbers_text
 from ...model.settings import SURFACE_OF_MUJOCO, Setting, Settings, get_number
 from ...source.document import Element
-from ..common.numbers import format_content, format_numbers_text
 from ..common.unexpressed import report_unwritten_settings
 from ..written import Written
 

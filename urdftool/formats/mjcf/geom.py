@@ -12,9 +12,9 @@ from ...model.elements import (
     Mesh,
     Visual,
 )
+from ...model.numbers import format_numbers_text
 from ...model.shapes import get_shape_name
 from ..common.naming import UniqueNames
-from ..common.numbers import format_numbers_text
 from ..common.shape_box import get_shape_size
 from ..written import Written
 from .frame import set_origin

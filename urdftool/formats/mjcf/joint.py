@@ -10,10 +10,10 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Joint, Limit, Vector
 from ...model.kinematics import UNLIMITED
+from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import compute_cross, compute_norm
 from ...model.settings import JOINTS_OF_MUJOCO, RESISTANCE
 from ..common.missing_bounds import explain_missing_bounds, explain_negative_effort
-from ..common.numbers import format_numbers_text, number_text
 from ..written import Written
 from .gazebo import get_attributes
 from .structure import Structure, get_bounds

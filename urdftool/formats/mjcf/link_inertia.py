@@ -17,9 +17,9 @@ from ...mechanics.tensor import (
     get_written_tensor,
 )
 from ...model.elements import ZERO, Link, Origin, Vector
+from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import make_pose, quaternion_from_rotation
 from ...source.location import Place
-from ..common.numbers import format_numbers_text, number_text
 from . import inertia as tensors
 from .frame import get_quaternion, simplify_quaternion
 

@@ -10,6 +10,7 @@ from lxml import etree
 from ...model.elements import Vector
 from ...model.kinematics import link_poses
 from ...model.mechanism import Closure
+from ...model.numbers import format_numbers_text
 from ...model.pose import (
     Pose,
     add,
@@ -20,7 +21,6 @@ from ...model.pose import (
     rotate,
 )
 from ..common.naming import UniqueNames
-from ..common.numbers import format_numbers_text
 from ..written import Written
 from .copied import get_start, has_copies
 from .structure import WORLD, Structure

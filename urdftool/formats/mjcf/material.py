@@ -10,8 +10,8 @@ from lxml import etree
 from ...errors import SourceError
 from ...model.elements import Link, Material, Robot, Visual
 from ...model.materials import find_shown_material
+from ...model.numbers import format_numbers_text
 from ..common.naming import UniqueNames, replace_file_name
-from ..common.numbers import format_numbers_text
 from ..written import Written
 from .convert import Image, Rgba
 from .meshes import MeshPiece

@@ -12,11 +12,11 @@ from ...diagnostic import Severity
 from ...finding import Finding
 from ...geometry.mesh import MeshNote
 from ...model.elements import Collision, Mesh, Robot, Vector, Visual
+from ...model.numbers import format_numbers_text
 from ..common.assets import find_file
 from ..common.cut import Cut, Cutter
 from ..common.missing_files import create_missing_mesh
 from ..common.naming import UniqueNames, replace_file_name
-from ..common.numbers import format_numbers_text
 from ..defects import make_defect
 from ..written import Written
 from .convert import Converted, Image, Piece, Rgba

@@ -9,10 +9,10 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import Pose, quaternion_from_rotation
 from ...model.world_settings import OF_MUJOCO
 from ..common.naming import UniqueNames
-from ..common.numbers import format_numbers_text, number_text
 from ..written import Written
 from .actuator import build_actuator_section
 from .body import build_body_tree, fill_bodies

@@ -10,9 +10,9 @@ from lxml import etree
 
 from ...model.elements import Robot
 from ...model.mechanism import Camera, Frame, Light
+from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import Pose, make_pose, rotation_from_quaternion
 from ..common.naming import UniqueNames
-from ..common.numbers import format_numbers_text, number_text
 from .body import Bodies
 from .frame import set_pose
 from .joint import SITE

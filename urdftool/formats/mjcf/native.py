@@ -11,9 +11,9 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.mechanism import NativeElement
+from ...model.numbers import format_numbers_text
 from ..common.drive_choice import AUTO
 from ..common.naming import get_free_name
-from ..common.numbers import format_numbers_text
 from ..written import Written
 from .copied import has_copied_actuators, has_copied_home, has_copies, list_native
 from .options import Options

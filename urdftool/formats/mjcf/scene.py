@@ -8,8 +8,8 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Vector
+from ...model.numbers import number_text
 from ..common.naming import UniqueNames
-from ..common.numbers import number_text
 from ..common.shape_box import ShapeBoxes
 from ..common.standing import Ground, measure_ground
 from ..written import Written

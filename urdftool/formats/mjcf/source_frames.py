@@ -14,8 +14,8 @@ from lxml import etree
 
 from ...model.elements import Joint, Robot, Vector
 from ...model.kinematics import compute_motion
+from ...model.numbers import format_numbers_text, format_pose_text, number_text
 from ...model.pose import add, make_pose, rotate
-from ..common.numbers import format_numbers_text, format_pose_text, number_text
 from .body import Bodies
 from .copied import get_start
 from .frame import read_pose, read_position, set_pose

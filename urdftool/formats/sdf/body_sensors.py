@@ -5,10 +5,10 @@ from __future__ import annotations
 from ...model.block_elements import list_plugins
 from ...model.elements import Joint, Link
 from ...model.gazebo_plugins import BODY_SENSORS, SENSOR_PLUGINS, get_library
+from ...model.numbers import format_numbers_text, number_text
 from ...model.read import number, parse_numbers
 from ...source.document import Element
 from ..common.naming import get_free_name
-from ..common.numbers import format_numbers_text, number_text
 from .copied_elements import move_to_owner
 from .sensor_plugins import convert_sensor_plugin
 from .translation import Translation

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from ...model.block_elements import list_part_elements
 from ...model.elements import Joint, Link
+from ...model.numbers import format_content
 from ...model.settings import (
     JOINT_TAGS,
     LINK_TAGS,
@@ -15,7 +16,6 @@ from ...model.settings import (
     Setting,
     Value,
 )
-from ..common.numbers import format_content
 from .body_sensors import is_body_sensor
 from .copied_elements import copy_raw_element, remove_invalid
 from .plugins import add_plugin

@@ -18,9 +18,9 @@ from ...mechanics.tensor import (
     measure_consistency,
 )
 from ...model.elements import Link, Part, Vector
+from ...model.numbers import number_text
 from ...model.pose import Pose
 from ..common.inertia_repair import repair_tensor
-from ..common.numbers import number_text
 from .pose import set_origin, set_pose
 from .translation import Translation
 from .xml import Node, add

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ...model.numbers import number_text
 from ..common.actuator_config import JointSettings, read_actuator_config
-from ..common.numbers import number_text
 from ..written import Written
 from .options import Options
 

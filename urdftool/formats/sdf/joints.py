@@ -6,11 +6,11 @@ import math
 
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Vector
+from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import compute_cross, compute_norm
 from ...model.settings import RESISTANCE
 from ..common.actuator_config import JointSettings
 from ..common.missing_bounds import explain_missing_bounds
-from ..common.numbers import format_numbers_text, number_text
 from .extensions import convert_joint_extensions, report_dissolved_joint
 from .inertials import WEIGHTLESS
 from .joint_base import get_axis, start

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere, Visual
+from ...model.numbers import format_content
 from ...model.pose import Pose, make_pose, rpy_from_rotation
 from ...model.settings import SURFACE
-from ..common.numbers import format_content
 from .extensions import link_extensions, merge_elements, write_settings
 from .frames import place
 from .gltf import undo_axis_conversion

@@ -9,6 +9,7 @@ from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.mechanism import Closure, NativeElement
 from ...model.native import AROUND, LOOP, NESTED
+from ...model.numbers import format_numbers_text
 from ...model.part import Part
 from ...model.pose import IDENTITY, Pose, make_pose, rotation_from_rpy
 from ...model.provenance import Written as Source
@@ -17,7 +18,6 @@ from ...model.world import WORLD
 from ...model.world_settings import OF_SDF
 from ...source.document import Element
 from ..common.naming import get_free_name
-from ..common.numbers import format_numbers_text
 from ..common.unexpressed import report_unexpressed
 from ..written import Written
 from .names import remove_reserved

@@ -14,10 +14,10 @@ from ...model.gazebo_plugins import (
     is_for_classic,
     is_for_gz,
 )
+from ...model.numbers import format_numbers_text
 from ...model.pose import Pose, rotation_from_rpy, rpy_from_rotation
 from ...model.read import parse_numbers
 from ...source.document import Element
-from ..common.numbers import format_numbers_text
 from .translation import Translation
 from .xml import Node, add, append_comment, append_copy, format_one_line, get_or_create
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ...model.elements import Origin
+from ...model.numbers import format_pose_text
 from ...model.pose import Pose, rotation_from_quaternion, rpy_from_rotation
-from ..common.numbers import format_pose_text
 from .xml import Node, add
 
 

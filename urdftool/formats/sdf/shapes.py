@@ -22,9 +22,9 @@ from ...model.elements import (
     Visual,
 )
 from ...model.mesh_formats import READ_BY
+from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import IDENTITY, make_pose
 from ...model.shapes import get_shape_name
-from ..common.numbers import format_numbers_text, number_text
 from .pose import set_origin, set_pose
 from .translation import Translation
 from .xml import Node, add

@@ -8,13 +8,13 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ...model.numbers import number_text
 from ...model.pose import IDENTITY
 from ...model.settings import is_set
 from ...model.start import start_positions
 from ...model.world import WORLD, find_model_origin
 from ..common.floor import lift_to_floor
 from ..common.home_positions import choose_home_positions
-from ..common.numbers import number_text
 from ..common.rigid_tree import RigidTree, group_rigid_links
 from ..common.shape_box import ShapeBoxes
 from ..common.standing_pose import choose_standing_positions

@@ -10,7 +10,7 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ...model.mechanism import JointActuator, MountedSensor
-from ..common.numbers import number_text
+from ...model.numbers import number_text
 from .translation import Translation, add
 
 _INTERFACES = {"position": "position", "velocity": "velocity", "motor": "effort"}

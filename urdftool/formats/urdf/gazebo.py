@@ -10,12 +10,12 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.elements import Origin
 from ...model.mechanism import Camera, MountedSensor
+from ...model.numbers import format_pose_text, number_text
 from ...model.pose import IDENTITY, Pose, get_origin_at, make_pose
 from ...model.provenance import Written as Source
 from ...model.world import WORLD
 from ...source.document import Element
 from ..common.naming import UniqueNames
-from ..common.numbers import format_pose_text, number_text
 from .control import is_joint_state
 from .translation import Translation, add, add_origin, get_rpy
 

@@ -8,7 +8,7 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES
-from ..common.numbers import number_text
+from ...model.numbers import number_text
 from .translation import Translation, add
 
 _GROUP = "robot"

@@ -8,8 +8,8 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Joint, Link, Robot
+from ...model.numbers import format_content
 from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Setting, Settings
-from ..common.numbers import format_content
 from .translation import Translation, add
 
 _WITH_SPRING = ("revolute", "continuous", "prismatic")

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from lxml import etree
 
 from ...model.elements import Origin, Robot
+from ...model.numbers import NOTHING, format_numbers_text
 from ...model.pose import make_pose, rpy_from_rotation
-from ..common.numbers import NOTHING, format_numbers_text
 from ..written import Written
 from .mesh_files import MeshFiles
 from .names import Names

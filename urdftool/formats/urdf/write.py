@@ -12,6 +12,7 @@ from ...model.drawn import list_drawn_once
 from ...model.elements import BALL_TYPES, Collision, Joint, Link, Origin, Robot, Visual
 from ...model.kinematics import UNLIMITED
 from ...model.mechanism import Frame
+from ...model.numbers import number_text
 from ...model.settings import RESISTANCE_OF_URDF
 from ..common.directory import mark
 from ..common.force_fallbacks import (
@@ -22,7 +23,6 @@ from ..common.force_fallbacks import (
 )
 from ..common.missing_bounds import explain_missing_bounds
 from ..common.naming import replace_file_name, shorten_file_name
-from ..common.numbers import number_text
 from ..common.unexpressed import report_other_elements, report_world_settings
 from ..defects import refuse
 from ..written import Written
