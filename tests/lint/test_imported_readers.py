@@ -174,3 +174,30 @@ def test_code_of_a_virtual_environment_says_nothing(tmp_path):
     (tmp_path / "env" / "pyvenv.cfg").write_text("")
     (tmp_path / "env" / "tool.py").write_text("import isaacgym\n")
     assert _find_readers(tmp_path / "data" / "cart.urdf")[0] == {"pybullet"}
+
+
+LEFT = """<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+<joint name="turn"><hardwareInterface>PositionJointInterface</hardwareInterface></joint>
+<actuator name="m"/></transmission><gazebo reference="gone"><mu1>1</mu1></gazebo>
+<gazebo><plugin name="control" filename="libgazebo_ros_control.so"/></gazebo>
+"""
+
+
+@pytest.mark.parametrize(
+    ("code", "mark", "reported"),
+    [
+        ("import pybullet\n", "setup.py", False),
+        ("", "setup.py", True),
+        ("import pybullet\nimport rospy\n", "setup.py", True),
+        ("import pybullet\n", "package.xml", True),
+    ],
+)
+def test_leftovers_of_ros_in_a_package_for_another_engine(tmp_path, code, mark, reported):
+    robot = ROBOT.replace("</robot>", f"{LEFT}</robot>")
+    if mark == "package.xml":
+        (tmp_path / "setup.py").write_text("")
+        (tmp_path / mark).write_text("<package><name>cart</name></package>")
+        mark = "other.txt"
+    names = _names(tmp_path, code, mark, robot)
+    assert ("unprefixed-hardware-interface" in names) is reported
+    assert ("dangling-reference" in names) is reported

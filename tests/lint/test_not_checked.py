@@ -289,3 +289,35 @@ def test_an_argument_with_a_single_sign_is_understood(write, urdftool, command):
     assert "file 'prefix=left_' does not exist; did you mean prefix:=left_?" in result.err
     odd = write("a=b.urdf", GOOD)
     assert urdftool("lint", odd, "--select", "zero-axis").code == 0
+
+
+TEMPLATE = """<robot name="object"><link name="base"><inertial><mass value="{0}"/>
+<inertia ixx="{1}" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>"""
+
+
+@pytest.mark.parametrize(
+    ("mass", "moment", "is_template"),
+    [
+        ("MASS", "IXX", True),
+        ("__MASS__", "__IXX__", True),
+        ("MASS", "1", False),
+        ("1,0", "i", False),
+    ],
+)
+def test_a_template_is_said_and_a_slip_is_an_error(tmp_path, urdftool, mass, moment, is_template):
+    path = tmp_path / "object.urdf"
+    path.write_text(TEMPLATE.format(mass, moment))
+    result = urdftool("lint", path)
+    assert (f"a template, in which a program replaces '{mass}'" in result.err) is is_template
+    assert ("not-a-number" in result.out) is not is_template
+
+
+def test_a_folder_of_meshes_that_a_program_writes_is_said(tmp_path, urdftool):
+    pytest.importorskip("mujoco")
+    path = tmp_path / "gripper.xml"
+    body = '<worldbody><body><geom type="mesh" mesh="a"/></body></worldbody></mujoco>'
+    for folder, code in (("__MESHDIR__", 0), ("meshes", 2)):
+        path.write_text(f'<mujoco><asset><mesh name="a" file="{folder}/a.stl"/></asset>{body}')
+        result = urdftool("lint", path)
+        assert result.code == code
+        assert ("a template" in result.err) is (code == 0)

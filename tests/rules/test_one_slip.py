@@ -166,11 +166,12 @@ def test_the_argument_that_was_meant_is_asked_for_and_written(tmp_path, urdftool
 def test_a_marker_gets_no_mass(tmp_path, urdftool, size, weighed):
     box = f'<geometry><box size="{size} {size} {size}"/></geometry>'
     robot = f'<link name="base"><visual>{box}</visual></link>{_link("arm")}'
-    robot += _joint("swing", "base", "arm")
+    robot += _joint("swing", "base", "arm") + _joint("roll", "arm", "tip")
+    robot += '<link name="tip"><inertial><mass value="1"/></inertial></link>'
     assert len(_found(tmp_path, robot, "missing-inertial")) == 2
     path = tmp_path / "robot.urdf"
     urdftool("lint", path, "--fix", "--unsafe-fixes", "--select", "missing-inertial")
-    assert path.read_text().count("<inertial>") == weighed
+    assert path.read_text().count("<inertial>") == weighed + 1
 
 
 def test_an_srdf_is_sent_to_its_robot(tmp_path):

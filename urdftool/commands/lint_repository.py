@@ -105,6 +105,11 @@ def print_list(files: Sequence[str], found: Repository) -> None:
 
 def check_source(path: str, options: Options) -> Report:
     """Check a file of xacro as it is written; imports the rules only where a file needs it."""
+    from ..lint.questions import find_cached_report
+
+    known = find_cached_report(path, options)
+    if known is not None:
+        return known
     from ..lint.run import check_file
 
     return check_file(path, options)

@@ -145,6 +145,8 @@ def _explain_ignored(
         return "" if evidence.target in found.targets else f"{found.set_by} sets the targets"
     if evidence.target in inference.targets:
         return ""
+    if inference.imported:
+        return f"the code of the project imports {', '.join(sorted(inference.imported))}"
     if evidence.target not in GENERATIONS:
         return "the description is for ROS 2"
     if not signs.plugins and signs.first_block is None:

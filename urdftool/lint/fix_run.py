@@ -63,6 +63,7 @@ class FixResult:
         reverted: Findings whose fixes were not applied, with what would be worse.
         unwritten: Fixes that were made, but whose files could not be written.
         groups: Sets of files that are written together or not at all.
+        is_exhausted: Whether fixes were left out after ``MOST_TRIALS`` attempts.
     """
 
     reports: list[Report]
@@ -75,6 +76,7 @@ class FixResult:
     reverted: list[tuple[Finding, Wrong]] = field(default_factory=list)
     unwritten: list[AppliedFix] = field(default_factory=list)
     groups: list[set[str]] = field(default_factory=list)
+    is_exhausted: bool = False
 
     def forget_reverted(self) -> None:
         """Discard what is known of fixes that were not applied, before they are tried again."""
@@ -149,16 +151,23 @@ def apply_fixes(
     while number < MAX_ROUNDS:
         begun, banned, doubted = len(result.made), set[Key](), set[Key]()
         result.forget_reverted()
-        while number < MAX_ROUNDS:
+        while number < MAX_ROUNDS and not result.is_exhausted:
             chosen = _choose(result.reports, banned, unsafe=unsafe, meshes=meshes)
             if not chosen:
                 break
             number += 1
             _Round(result, options, banned, doubted, number).prove(chosen)
-        if len(result.made) == begun or not banned:
+        if len(result.made) == begun or not banned or result.is_exhausted:
             break  # other fixes were made since: a reverted one may be right now
     result.groups = _get_groups(result)
     return result
+
+
+MOST_TRIALS = 120
+"""Attempts to apply fixes of one description, or of several that share files, in one round.
+
+Each attempt checks them. Chosen, no source.
+"""
 
 
 class _Wanted(NamedTuple):
@@ -230,6 +239,7 @@ class _Round:
         self.findings = [report.findings for report in result.reports]
         self.doubted = doubted
         self.kept: list[_Wanted] = []
+        self.trials = 0
         self.concerned: dict[str, set[int]] = {}
         for number, report in enumerate(result.reports):
             self._index(number, report)
@@ -247,7 +257,7 @@ class _Round:
         a variant of the robot, is tried separately too.
         """
         for part in self._partition(chosen):
-            self.kept = []
+            self.kept, self.trials = [], 0
             groups: dict[object, list[_Wanted]] = {}
             for one in part:
                 key: object = get_likeness(one.finding)
@@ -292,6 +302,10 @@ class _Round:
         """
         if not chosen:
             return
+        if self.trials >= MOST_TRIALS:
+            self._leave_out(chosen)
+            return
+        self.trials += 1
         wrong = self._try_fixes(chosen)
         if wrong is None:
             return
@@ -316,6 +330,14 @@ class _Round:
         middle = _choose_split(chosen)
         self._halve(chosen[:middle])
         self._halve(self._list_pending(chosen[middle:]))
+
+    def _leave_out(self, chosen: Sequence[_Wanted]) -> None:
+        """Leave out fixes for which there were too many attempts; the next run tries them."""
+        self.result.is_exhausted = True
+        why = f"not tried after {MOST_TRIALS} attempts; run --fix again"
+        for finding in (one.finding for one in chosen):
+            self.banned.add(get_key(finding))
+            self.result.unmade.setdefault(finding.code, f"{finding.location}: {why}")
 
     def _try_fixes(self, some: Sequence[_Wanted]) -> Wrong | None:
         """Apply fixes in addition to the kept ones; return what is worse, None if they are kept."""

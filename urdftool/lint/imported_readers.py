@@ -16,7 +16,7 @@ from ..errors import UrdftoolError
 from ..finding import Finding
 from ..model.elements import Robot
 from ..projects import list_above
-from ..rules.rule import ROS, Rule
+from ..rules.rule import GAZEBO, ROS, Rule
 from ..source.description import Description
 from ..workspace import Workspace, memoize_by_workspace
 
@@ -143,24 +143,30 @@ def _read_imports(files: Workspace, folder: str) -> frozenset[str] | None:
 def is_for_other_readers(rule: Rule, finding: Finding, used: frozenset[str] | None) -> bool:
     """Tell whether a finding below error has effects on readers that a project does not use.
 
-    Of rules that are not about motion, only remarks about simulators are judged: a file that
-    readers take differently is worth knowing.
+    Of rules that are not about motion, only remarks about simulators are judged, and settings for
+    Gazebo alone: a file that readers take differently is worth knowing.
     """
     if used is None or finding.severity is Severity.ERROR:
         return False
     readers = {reader for key in finding.effects for reader in key.split(", ")}
     if not readers or not readers.isdisjoint(used):
         return False
-    return rule.of_motion or (finding.severity is Severity.INFO and readers <= _SIMULATORS)
+    if rule.of_motion or readers <= set(GAZEBO):
+        return True
+    return finding.severity is Severity.INFO and readers <= _SIMULATORS
 
 
 def is_of_unmoved_robot(rule: Rule, finding: Finding, robot: Robot | None) -> bool:
-    """Tell whether a remark about motion is about a marker: no joint moves and nothing collides.
+    """Tell whether a remark about motion is about a robot that no simulator moves.
 
-    A single body with collision geometry, as a drone or an object to grasp, moves as a whole.
+    That is a marker, of which no joint moves and nothing collides, and a robot for kinematics, of
+    which no link has an inertial: ``missing-inertial`` reports that once. A single body with
+    collision geometry, as a drone or an object to grasp, moves as a whole.
     """
     if robot is None or not rule.of_motion or finding.severity is Severity.ERROR:
         return False
-    if not robot.links or robot.moving_joints:
+    if not robot.links:
         return False
+    if robot.moving_joints:
+        return robot.format == "urdf" and all(link.inertial is None for link in robot.links)
     return not any(link.collisions for link in robot.links)

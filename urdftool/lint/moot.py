@@ -12,7 +12,7 @@ from ..finding import Finding
 from ..model.elements import Collision, Mesh, Robot, Visual
 from ..model.mesh_formats import find_rejecting_readers, get_suffix
 from ..rules.gazebo.lumped_model import find_kept_links, is_named_as_link
-from ..rules.inertia.presence import has_bare_moved_body
+from ..rules.inertia.massless import has_bare_moved_body
 from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
 from ..rules.mujoco import find_rejected_by_mujoco
 from ..rules.rule import GAZEBO

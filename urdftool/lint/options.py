@@ -99,6 +99,7 @@ class Options:
                 [str(path) for path in self.package_paths],
                 *(configuration.path, _list_folders(configuration.packages)),
                 *(_list_settings(settings), self.fixes, self.gltf_up or configuration.gltf_up),
+                self.expand,
             ],
         )
 

@@ -45,6 +45,7 @@ from .motion import (
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .options import Options
 from .outcome import NOT_EXPANDED, Report
+from .placeholders import FEWEST, describe_template, find_placeholders
 from .questions import join_variants, list_questions
 from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
@@ -132,6 +133,10 @@ def _check_variant(
             except LimitError:
                 raise
             except (SourceError, ModelError) as error:
+                word = error.data.get("placeholder", "")
+                if word:
+                    report.skipped = describe_template([word])
+                    return report
                 rule = "not-well-formed" if isinstance(error, XmlError) else "unreadable-model"
                 report.stopped = error.message
                 report.findings = [convert_error(error, {}, unchecked=True, rule=rule)]
@@ -160,6 +165,9 @@ def _check_variant(
                 report.skipped = explain_no_links(description)
                 return report
             refuse_srdf(description)
+            if len(words := find_placeholders(root)) >= FEWEST:
+                report.skipped = describe_template(words)
+                return report
     except UrdftoolError as error:
         report.error = error
         return report
@@ -269,8 +277,9 @@ def _check_description(
     if settings.targets is not None:
         targets = settings.targets
     elif robot is not None:
-        targets, report.overruled, guesses = infer_targets(robot, description)
-        guessed = frozenset(guess.target for guess in guesses)
+        inference = infer_targets(robot, description)
+        targets, report.overruled = inference.targets, inference.overruled
+        guessed = frozenset(guess.target for guess in inference.guesses)
     else:
         targets = frozenset()
     report.targets = targets

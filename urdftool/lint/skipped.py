@@ -84,7 +84,7 @@ def _check_part(path: str, check: Check, options: Options) -> Report:
     """Check the source of a file that no robot read, unless it is excluded."""
     if _get_pattern(path, options.config, options.workspace) is not None:
         return Report(path)
-    report = check(path, replace(options, expand=False, cache=None, fixes=False))
+    report = check(path, replace(options, expand=False, fixes=False))
     return replace(report, error=None, stopped="")
 
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from ..model.elements import Robot
 from ..source.description import Description
 from .evidence import GENERATIONS, TARGETS_OF, Evidence, Signs, make_guess
+from .imported_readers import find_imported_readers
 
 _NAMES = {"gz": "new Gazebo", "gazebo-classic": "Gazebo Classic"}
 
@@ -18,11 +19,15 @@ class Inference(NamedTuple):
         targets: The targets.
         overruled: Why a plugin of the other generation of Gazebo is not a target; empty if none is.
         guesses: Evidence of the generation of Gazebo where nothing names it.
+        imported: Readers that the code of the project imports, which show that elements for ROS
+            and Gazebo are leftovers; empty if they count.
     """
 
     targets: frozenset[str]
     overruled: str = ""
     guesses: tuple[Evidence, ...] = ()
+    imported: frozenset[str] = frozenset()
+    """Readers that the code of the project imports, if they show that elements are leftovers."""
 
 
 def infer_targets(robot: Robot, description: Description) -> Inference:
@@ -34,7 +39,9 @@ def infer_targets(robot: Robot, description: Description) -> Inference:
     these, because plugins of Gazebo Classic remain when a robot is ported. Without any, a
     ``<gazebo>`` tag counts for gz if the targets include ROS 2, else for Gazebo Classic. Launch
     files and other packages count only for a robot with ``<gazebo>`` tags. The package.xml
-    distinguishes ROS 1 from ROS 2; without it, a transmission counts for ROS 1.
+    distinguishes ROS 1 from ROS 2; without it, a transmission counts for ROS 1. In a Python project
+    without a package.xml, whose code imports readers, a transmission, a plugin of Gazebo Classic
+    and a ``<gazebo>`` tag without a plugin are leftovers of a generator, and do not count.
     """
     if robot.format in TARGETS_OF:
         return Inference(frozenset(TARGETS_OF[robot.format]))
@@ -47,6 +54,11 @@ def infer_targets(robot: Robot, description: Description) -> Inference:
     guesses: tuple[Evidence, ...] = ()
     if signs.first_block is not None and not generations:
         guesses = (make_guess("gz" if "ros2" in targets else "gazebo-classic", signs.first_block),)
+    leftovers = {"ros1", "gazebo-classic"}
+    if signs.package is None and (guesses or not leftovers.isdisjoint(targets | generations)):
+        imported = find_imported_readers(description, frozenset())
+        if imported:
+            return Inference((targets | generations) - leftovers, overruled, imported=imported)
     return Inference(targets | generations | _get_targets(guesses), overruled, guesses)
 
 

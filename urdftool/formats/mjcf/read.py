@@ -8,6 +8,7 @@ crash it. Everything else is computed here from the specification of the format.
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -145,11 +146,20 @@ def _compile(expanded: Expanded, workspace: Workspace, limits: Limits) -> Compil
     if workspace.dependencies is not None:
         workspace.dependencies.include(read)
     if compiled.error_file:
-        raise SourceError(compiled.error, at=expanded.assets[compiled.error_file].element.place)
+        word = _PLACEHOLDER.search(compiled.error)
+        raise SourceError(
+            compiled.error,
+            at=expanded.assets[compiled.error_file].element.place,
+            data={"placeholder": word[0]} if word else {},
+        )
     if compiled.error:
         at = expanded.get_element_at(compiled.error_line).place
         raise ModelError(f"MuJoCo does not compile the model: {compiled.error}", at=at)
     return compiled
+
+
+_PLACEHOLDER = re.compile("__[A-Z][A-Z0-9_]*__")
+"""A word in a path that a program replaces."""
 
 
 def _add_memory(limits: Limits, folder: str, paths: dict[str, str], workspace: Workspace) -> Limits:

@@ -79,7 +79,8 @@ def missing_collision(
     If nothing shows that Gazebo, MuJoCo, PyBullet or MoveIt reads the robot, it is an info for
     wheels and feet, for robots without any collision, and for links of the mass of the others where
     most links have a collision. Others are off by default: fingers in the collision of a hand,
-    covers, and links of robots whose authors reduced the collisions.
+    covers, and links of robots whose authors reduced the collisions. ``missing-inertial`` reports a
+    robot that has neither a collision nor an inertial.
     """
     if len(robot.links) == 1 and not robot.links[0].mass:
         return  # a marker, such as a goal
@@ -92,6 +93,7 @@ def missing_collision(
     odd = {link.name for link, _ in _find_odd_links(robot)}
     discarded = not keeps_visuals(robot)
     is_simulated = not targets.isdisjoint(_CONTACT_TARGETS)
+    is_bare = not any(link.inertial is not None or link.collisions for link in robot.links)
     for link in ghosts:
         if link.name in odd:
             continue
@@ -109,7 +111,7 @@ def missing_collision(
             "add a <collision>, best with a primitive shape",
             severity=INFO if is_fixed_to_world(robot, link) else None,
             effects=[_LOAD, "moveit", *["mujoco"] * discarded],
-            pedantic=not is_simulated and not _is_expected(robot, link),
+            pedantic=not is_simulated and (is_bare or not _is_expected(robot, link)),
             group="{count} links have a visual but no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
         )

@@ -37,7 +37,7 @@ from .tensors import is_zero
     },
     of_motion=True,
     group="robot",
-    caused_by=SIZE_IN_DOUBT,
+    caused_by=(*SIZE_IN_DOUBT, "placeholder-inertia", "zero-inertia"),
     formats=ANY_FORMAT,
 )
 def com_outside_geometry(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.attached import find_attached_links, is_fixed_to_world
-from ...model.elements import MOVING_TYPES, Joint, Link, Robot
+from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
 from ..fix import (
     Change,
@@ -37,6 +37,14 @@ from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import compute_mass, find_rigid_bodies
 from .device_frames import is_light_marker, is_massless_scene, is_slight_frame
 from .light_body import find_light_body
+from .massless import (
+    INERTIAL_HINT,
+    MASS_READERS,
+    find_moved_bodies,
+    is_bare,
+    is_only_kinematic,
+    report_massless,
+)
 from .optional_inertials import has_optional_inertials
 from .solids import DENSITY
 from .tensors import has_written_inertial
@@ -45,7 +53,6 @@ _SIMULATED = ("gazebo-classic", "gz", "mujoco")
 
 _REMOVED = "Gazebo removes the link and everything attached to it"
 _ALL_REMOVED = "Gazebo removes them and everything attached to them"
-_HINT = "'urdftool inertia robot --write --mass LINK=KG' computes one from its geometry"
 _AS_PART = (
     "PyBullet gives {} 1 kg in addition to {} body's mass. Write a small <inertial> if PyBullet is "
     "to read the robot"
@@ -87,10 +94,16 @@ def missing_inertial(
     Frames without geometry need none, although PyBullet gives them 1 kg, nor does a frame with a
     marker below 1 g at the density of water that is fixed to a link with a mass. Another such
     marker is an info where MuJoCo substitutes the mass. Without a simulator among the targets,
-    links of xacro files are not reported that write inertials under a condition.
+    links of xacro files are not reported that write inertials under a condition, and a
+    robot without any is one info, if it has several links with geometry, or no geometry and at
+    least three joints that move: it serves kinematics or display.
     """
     if robot.format == "sdf":
         yield from _report_default_inertials(robot)
+        return
+    if targets.isdisjoint(MASS_READERS) and is_only_kinematic(robot):
+        if not has_optional_inertials(description):
+            yield report_massless(robot)
         return
     in_gazebo = not targets.isdisjoint(GAZEBO)
     tops: dict[str, Link] | None = None
@@ -155,7 +168,7 @@ def missing_inertial(
         yield Problem(
             link,
             f"link '{link.name}' has no <inertial>{so}",
-            hint=_HINT if needs_mass else "",
+            hint=INERTIAL_HINT if needs_mass else "",
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
             effects=_select_effects(robot, link, case),
@@ -172,7 +185,7 @@ def report_every_shape_without_inertial(robot: Robot) -> Iterator[Problem]:
     for link in robot.links:
         if link.inertial is None and not link.is_frame and link.name != "world":
             text = f"link '{link.name}' has no <inertial> and so has no mass"
-            yield Problem(link, text, hint=_HINT)
+            yield Problem(link, text, hint=INERTIAL_HINT)
 
 
 def _report_default_inertials(robot: Robot) -> Iterator[Problem]:
@@ -218,19 +231,27 @@ _LIGHTEST = 1e-5
 
 @missing_inertial.fix(UNSAFE)
 def add_inertial(problem: Problem, context: FixContext) -> Proposal | None:
-    """Add the inertial of the geometry at the density of water."""
-    link = context.get_link(problem)
-    if problem.severity is INFO:
+    """Add the inertial of the geometry at the density of water.
+
+    A robot without any gets those of all links, unless a macro writes several of these links.
+    """
+    if problem.kind == "robot":
+        links = [link for link in context.robot.links if not link.is_frame]
+        if len({(link.place.path, link.place.start) for link in links}) < len(links):
+            return None
+    elif problem.severity is INFO:
         return None  # the body has a mass, or does not need one
+    else:
+        links = [context.get_link(problem)]
     from .corrections import make_inertial
 
-    found = make_inertial(link, context)
-    if found is None or found[0] < _LIGHTEST:
+    made = [(link, made) for link in links if (made := make_inertial(link, context)) is not None]
+    made = [(link, (mass, lines)) for link, (mass, lines) in made if mass >= _LIGHTEST]
+    if not made:
         return None
-    change = prepend_child(link.element, *found[1])
-    numbers = "".join(line.strip() for line in found[1][1:-1])
-    what = f"add the <inertial> of its geometry at {DENSITY:g} kg/m³: {numbers}"
-    return unsafe(what, change)
+    what = "; ".join("".join(line.strip() for line in lines[1:-1]) for _, (_, lines) in made)
+    changes = [prepend_child(link.element, *lines) for link, (_, lines) in made]
+    return unsafe(f"add the <inertial> of its geometry at {DENSITY:g} kg/m³: {what}", *changes)
 
 
 @rule(
@@ -256,7 +277,7 @@ def massless_moving_body(robot: Robot, targets: frozenset[str]) -> Iterator[Prob
     """
     bare, heavy = [], 0
     for joint, name, links in find_moved_bodies(robot):
-        if _is_bare(links):
+        if is_bare(links):
             bare.append((joint, name, links[0]))
         heavy += compute_mass(links) > 0
     if targets.isdisjoint(_SIMULATED) and (len(bare) > 1 or heavy < 3):
@@ -289,34 +310,11 @@ def add_small_inertial(problem: Problem, context: FixContext) -> Proposal | None
     return give_small_inertial(context.get_link(problem))
 
 
-def find_moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
-    """List the rigid bodies on moving joints, each as joint, name of the topmost link and links."""
-    for name, links in find_rigid_bodies(robot).items():
-        joint = robot.tree.get_parent_joint(name)
-        if joint is not None and not joint.is_fixed and not links[0].is_virtual:
-            yield joint, name, links
-
-
-def has_bare_moved_body(robot: Robot) -> bool:
-    """Tell whether a joint moves a body without mass and geometry, which MuJoCo rejects."""
-    moved = (links for joint, _, links in find_moved_bodies(robot) if joint.type in MOVING_TYPES)
-    return any(map(_is_bare, moved))
-
-
 def _describe_descendants(robot: Robot, name: str) -> str:
     count = sum(1 for _ in robot.tree.list_descendants(name))
     if not count:
         return ""
     return f", and {count} links below it" if count > 1 else ", and one link below it"
-
-
-def _is_bare(links: list[Link]) -> bool:
-    """Tell whether no link of a body has an inertial, nor geometry that requires one."""
-    for link in links:
-        misspelled = find_misspelled_children(link.xml)
-        if not link.is_frame or "inertial" in misspelled.values():
-            return False
-    return True
 
 
 @rule(
@@ -339,7 +337,7 @@ def massless_root_body(robot: Robot) -> Iterator[Problem]:
             continue
         if joint is not None and not joint.is_fixed:
             continue
-        if not _is_bare(links) or not _has_moving_joint(robot, links):
+        if not is_bare(links) or not _has_moving_joint(robot, links):
             continue
         yield _report_root(links[0])
 

@@ -358,7 +358,7 @@ def has_mesh(link: Link) -> bool:
         "pinocchio": "takes it as written",
     },
     of_motion=True,
-    caused_by=SIZE_IN_DOUBT,
+    caused_by=(*SIZE_IN_DOUBT, "implausible-density", "implausible-mass"),
     formats=ANY_FORMAT,
 )
 def inertia_below_geometry(

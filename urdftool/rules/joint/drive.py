@@ -22,6 +22,7 @@ from ..fix import (
 )
 from ..gazebo.contact import is_wheel
 from ..rule import ANY_FORMAT, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..symmetry import find_twins
 from ..words import quote
 from ..xml.vocabulary_table import (
     find_misspelled_attributes,
@@ -41,6 +42,7 @@ _UNITS = {"prismatic": ("N", "m/s")}
         "gz": "passes a limit of 0 on to the engine: the joint cannot be driven",
         "mujoco": "loads it without the limit",
     },
+    of_motion=True,
     group="robot",
     formats=ANY_FORMAT,
 )
@@ -52,9 +54,11 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     the finding is an info, because Drake uses 0 for a passive joint. A joint is not reported where
     a transmission, ros2_control or a plugin drives other joints and not this one: it is passive,
     and 0 is correct. ``locked-by-limits`` reports a joint whose lower and upper limit are equal.
-    A joint named as a dummy that moves neither geometry nor more than 1 g is not reported.
+    A joint named as a dummy that moves neither geometry nor more than 1 g is not reported. Unless
+    new Gazebo is a target, the finding is an info where no joint has a limit of effort or velocity,
+    as an exporter writes them, and where the joints of both sides have none, but most others have.
     """
-    passive = "gz" not in targets and is_for_another_reader(robot.xml)
+    passive = "gz" not in targets and (is_for_another_reader(robot.xml) or _are_meant(robot))
     actuated = find_actuated_joints(robot)
     for joint, limit in _iterate_driven(robot):
         if limit.effort == 0.0 and not is_passive(joint, actuated) and not is_locked(joint):
@@ -71,6 +75,19 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
             )
 
 
+def _are_meant(robot: Robot) -> bool:
+    """Tell whether limits of 0 are of all joints of a robot, or of pairs of passive joints."""
+    driven = list(_iterate_driven(robot))
+    if not any(limit.effort or limit.velocity for _, limit in driven):
+        return True
+    none = {joint.name for joint, limit in driven if limit.effort == 0.0}
+    twins = {name: find_twins(name, robot.joint) for name in none}
+    paired = {*twins, *(one for others in twins.values() for one in others)} & none
+    right = {one for others in twins.values() for one in others}
+    both = all(others or name in right for name, others in twins.items()) and right <= none
+    return both and len(paired) * 3 <= len(driven)
+
+
 @rule(
     WARNING,
     raised={"moveit": ERROR},
@@ -81,8 +98,9 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     caused_by=("zero-effort-limit",),
     group="robot",
     formats=ANY_FORMAT,
+    pedantic="effort limits that are 0 too, unless MoveIt or new Gazebo is a target",
 )
-def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
+def zero_velocity_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """The velocity limit of a moving joint is 0.
 
     Gazebo then does not allow the joint to move. MoveIt takes it as a missing limit and cannot time
@@ -98,6 +116,7 @@ def zero_velocity_limit(robot: Robot) -> Iterator[Problem]:
                 f"write its maximum [{_get_units(joint)[1]}]",
                 at=limit.locate_attribute("velocity"),
                 alike=joint.type == "prismatic",
+                pedantic=limit.effort == 0.0 and targets.isdisjoint(("moveit", "gz")),
             )
 
 

@@ -245,13 +245,15 @@ def write_missing_bound(problem: Problem, context: FixContext) -> Proposal | Non
         "mujoco": "3.3 enforces them unless both are 0, 4.0 ignores them",
         "newton": "limits the joint to them",
     },
+    group="robot",
+    pedantic="bounds that are both 0, unless Newton is a target",
 )
-def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:
+def continuous_with_bounds(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A continuous joint has a lower or upper limit.
 
     A continuous joint turns without limits, and most readers ignore the bounds. MuJoCo 3.3 enforces
     them unless both are 0, so simulators load two different robots. A joint with bounds is
-    ``revolute``.
+    ``revolute``. Bounds that are both 0 are fields that an exporter left empty.
     """
     for joint in robot.joints:
         limit = joint.limit
@@ -270,6 +272,8 @@ def continuous_with_bounds(robot: Robot) -> Iterator[Problem]:
             joint,
             f"joint '{joint.name}' is continuous, so most readers ignore its bounds; {remedy}",
             at=limit.locate_attribute(name),
+            pedantic=not (limit.lower or limit.upper) and "newton" not in targets,
+            alike=remedy,
         )
 
 

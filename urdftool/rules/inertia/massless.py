@@ -1,0 +1,84 @@
+"""Robots and moved bodies without any mass."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.elements import MOVING_TYPES, Joint, Link, Robot
+from ..rule import GAZEBO, INFO, Problem
+from ..xml.vocabulary_table import find_misspelled_children
+from .bodies import find_rigid_bodies
+from .device_frames import is_massless_scene
+
+INERTIAL_HINT = "'urdftool inertia robot --write --mass LINK=KG' computes one from its geometry"
+
+MASS_READERS = (*GAZEBO, "mujoco", "pybullet")
+"""Targets that need masses."""
+
+_CHAIN = 3
+"""Number of joints from which links without geometry are a robot. Chosen, no source."""
+
+
+def is_only_kinematic(robot: Robot) -> bool:
+    """Tell whether no link of a robot has an inertial, though several have geometry.
+
+    Without geometry, it has several joints that move. A single link with geometry lost its inertial
+    rather.
+    """
+    if any(
+        link.inertial is not None or "inertial" in find_misspelled_children(link.xml).values()
+        for link in robot.links
+    ):
+        return False
+    shown = sum(not link.is_frame and link.name != "world" for link in robot.links)
+    return shown > 1 if shown else len(robot.moving_joints) >= _CHAIN
+
+
+def report_massless(robot: Robot) -> Problem:
+    """Report a robot of which no link has an inertial."""
+    solid = any(link.collisions for link in robot.links)
+    return Problem(
+        robot,
+        f"no link of the robot has an <inertial>{'' if solid else ' or a <collision>'}, so the "
+        "robot serves kinematics and display, not dynamics",
+        severity=INFO,
+        hint=INERTIAL_HINT if solid else "",
+        effects=(
+            *("gz, gazebo-classic (root)", "pybullet", "pinocchio, KDL, drake"),
+            *_select_mujoco_effect(robot),
+        ),
+        alike="robot",
+        pedantic=is_massless_scene(robot) or (len(robot.links) == 1 and not solid),
+    )
+
+
+def _select_mujoco_effect(robot: Robot) -> list[str]:
+    """Select the effect on a robot without inertials: MuJoCo needs a mass of what joints move."""
+    moved = [links for joint, _, links in find_moved_bodies(robot) if joint.type in MOVING_TYPES]
+    if not moved:
+        return []
+    bare = any(not any(link.collisions for link in links) for links in moved)
+    return ["mujoco (no mass)" if bare else "mujoco (collisions)"]
+
+
+def find_moved_bodies(robot: Robot) -> Iterator[tuple[Joint, str, list[Link]]]:
+    """List the rigid bodies on moving joints, each as joint, name of the topmost link and links."""
+    for name, links in find_rigid_bodies(robot).items():
+        joint = robot.tree.get_parent_joint(name)
+        if joint is not None and not joint.is_fixed and not links[0].is_virtual:
+            yield joint, name, links
+
+
+def has_bare_moved_body(robot: Robot) -> bool:
+    """Tell whether a joint moves a body without mass and geometry, which MuJoCo rejects."""
+    moved = (links for joint, _, links in find_moved_bodies(robot) if joint.type in MOVING_TYPES)
+    return any(map(is_bare, moved))
+
+
+def is_bare(links: list[Link]) -> bool:
+    """Tell whether no link of a body has an inertial, nor geometry that requires one."""
+    for link in links:
+        misspelled = find_misspelled_children(link.xml)
+        if not link.is_frame or "inertial" in misspelled.values():
+            return False
+    return True
