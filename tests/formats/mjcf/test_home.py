@@ -203,3 +203,28 @@ def test_a_scene_around_a_long_chain(write):
     links = [link(f"l{i}") for i in range(400)]
     joints = [joint(f"j{i}", f"l{i}", f"l{i + 1}", "continuous", "") for i in range(399)]
     assert "scene.xml" in export(write("r.urdf", robot(*links, *joints)), scene=True).files
+
+
+@pytest.mark.library("mujoco")
+def test_an_object_of_an_mjcf_stays_where_its_author_put_it(write):
+    """Beside an arm whose own shapes reach below the height of the floor."""
+    from urdftool.api.load import load
+    from urdftool.formats.mjcf.write import write as write_mjcf
+
+    path = write(
+        "r.xml",
+        """<mujoco><worldbody><body name="arm"><geom type="box" size=".1 .1 .1" mass="1"/></body>
+<body name="ball" pos="1 0 0.1"><freejoint/><geom size="0.1" mass="1"/></body></worldbody>
+</mujoco>""",
+    )
+    assert qpos(write_mjcf(load(path))) == [1, 0, 0.1, 1, 0, 0, 0]
+
+
+def test_a_free_body_is_lifted_by_its_own_depth(write):
+    """A ball of a URDF, beside a ball that is fixed to the world and reaches deeper."""
+    path = write("r.urdf", robot(
+        link("world"), link("post", BALL), link("ball", BALL),
+        joint("fix", "world", "post", "fixed", '<origin xyz="0 0 -1"/>'),
+        joint("free", "world", "ball", "floating", '<origin xyz="1 0 0.05"/>'),
+    ))  # fmt: skip
+    assert qpos(export(path)) == [1, 0, 0.1, 1, 0, 0, 0]

@@ -117,3 +117,45 @@ def test_the_lowest_point_of_a_turned_shape_is_exact(shape, low):
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     assert compute_lowest_point(mujoco, model, data) == pytest.approx(-low, abs=1e-9)
+
+
+OBJECT = '<body name="ball" pos="2 0 0.5"><freejoint/><geom size="0.1" mass="1"/></body>'
+
+
+def test_an_object_that_drops_is_not_the_base_of_an_arm_that_is_held(tmp_path):
+    path = make(tmp_path, height=1, servos=True)
+    text = (
+        path.read_text()
+        .replace("<freejoint/>", "")
+        .replace('kp="200" kv="5"', 'kp="20" kv="0.4"')
+        .replace("</worldbody>", f"{OBJECT}</worldbody>")
+    )
+    path.write_text(text)
+    found = runs(path).announced
+    assert found
+    assert all(one.startswith("falls: body 'ball' moves by 0.4 m") for one in found)
+
+
+def test_an_arm_that_sinks_beside_an_object_is_named(tmp_path):
+    path = make(tmp_path, height=1)
+    resting = OBJECT.replace("0.5", "0.1")
+    text = (
+        path.read_text()
+        .replace("<freejoint/>", "")
+        .replace("</worldbody>", f"{resting}</worldbody>")
+    )
+    path.write_text(text)
+    found = runs(path).announced
+    assert found
+    assert all("joints move by up to" in one and one.endswith("no servo") for one in found)
+
+
+def test_joints_that_a_tendon_servo_holds_are_held(tmp_path):
+    path = make(tmp_path, height=1, legs=1)
+    tendon = """<tendon><fixed name="t"><joint joint="a" coef="1"/></fixed></tendon>
+<actuator><position tendon="t" kp="0.3" kv="0.1"/></actuator>"""
+    text = path.read_text().replace("<freejoint/>", "").replace("</mujoco>", f"{tendon}</mujoco>")
+    path.write_text(text)
+    found = runs(path).announced
+    assert found
+    assert not [one for one in found if "no servo" in one]

@@ -34,8 +34,8 @@ def place_home(structure: Structure, boxes: ShapeBoxes, positions: dict[str, flo
     """Place a robot with a free root on the floor at z = 0.
 
     A fixed root, and that of an MJCF, keeps its pose. A floating joint below a world root
-    counts as a floating base: the bodies that it carries are lifted if they would reach below the
-    floor.
+    counts as a floating base: the bodies that such joints carry are lifted together if they would
+    reach below the floor.
 
     Args:
         structure: The kinematic tree.
@@ -53,9 +53,18 @@ def place_home(structure: Structure, boxes: ShapeBoxes, positions: dict[str, flo
         for joint in structure.moving
         if structure.get_kind(joint) == "free"
     }
-    if structure.in_world and floating:
+    if structure.in_world and floating and structure.robot.format != "mjcf":
         ground = measure_ground(structure, boxes, positions, root)
-        depth = 0.0 if ground is None else min(ground.low, 0.0)
-        above = Pose(translation=(0.0, 0.0, round_neat(-depth)))
+        lows = map(ground.get_lowest, _list_carried(structure)) if ground is not None else ()
+        above = Pose(translation=(0.0, 0.0, round_neat(-min((*lows, 0.0)))))
         floating = {name: above @ there for name, there in floating.items()}
     return Home(positions, pose, start, floating)
+
+
+def _list_carried(structure: Structure) -> list[str]:
+    """List the topmost links of the rigid bodies that floating joints carry."""
+    carried: dict[str, None] = {}
+    for joint in structure.joints:
+        if structure.get_kind(joint) == "free" or structure.group[joint.parent] in carried:
+            carried[structure.group[joint.child]] = None
+    return list(carried)

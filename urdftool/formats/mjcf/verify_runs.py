@@ -35,11 +35,11 @@ TILT = 3.0
 """Maximum tilt of a free base from the start [°]; chosen, no source."""
 
 SWING = 0.1
-"""Maximum motion of joints that no servo holds [rad or m]; chosen, no source."""
+"""Maximum motion of a joint that no servo holds [rad or m]; chosen, no source."""
 
 SAG = 0.05
-"""Maximum motion of joints of a fixed base that has servos [rad or m]; chosen, no source: ``TILT``
-in radians."""
+"""Maximum motion of a joint that a servo holds [rad or m]; chosen, no source: ``TILT`` in radians.
+"""
 
 FALLEN_TILT = 30.0
 """Tilt of a free base above which the robot has fallen [°]; chosen, no source."""
@@ -48,6 +48,9 @@ FALLEN_DROP = 0.3
 """Drop of the center of mass, relative to its first height, above which the robot has fallen;
 chosen, no source.
 """
+
+THE_BASE = "the base"
+"""The only free body of a model that has no other body on its world, in messages."""
 
 STOP = 1e6
 """Speed [rad/s or m/s] above which the simulation has diverged."""
@@ -61,31 +64,38 @@ class Trial:
         timestep: Physics time step [s].
         warnings: Time [s] of the first occurrence of each of MuJoCo's warnings.
         beyond: Largest excess over joint limits [rad or m], by joint name, above the tolerance.
-        drift: Motion of a free base from the start [m]; infinite if the simulation diverged.
-        tilt: Tilt of a free base from the start [°].
-        drop: Drop of the center of mass above a free base, relative to its height at the start.
-        sink: Drop of a free base [m].
-        swing: Motion of a joint of a fixed base from the start [rad or m].
-        is_held: Whether a servo holds a joint, or there is no joint that needs one.
+        base: The free body that moves most, for messages; empty if the model has none.
+        drift: Its motion from the start [m]; infinite if the simulation diverged.
+        tilt: Its tilt from the start [°].
+        drop: Drop of the center of mass that it carries, relative to the height at the start.
+        sink: Its drop [m].
+        swing: Motion of each joint of a fixed base from the start [rad or m], by name.
+        held: Names of the joints that a servo holds, directly or by a mimic.
+        floating: Names of the joints that a free body carries.
         speed: Highest joint speed at the end [rad/s or m/s].
-        is_free: Whether a base is free and stands on a floor.
     """
 
     timestep: float
     warnings: dict[str, float] = field(default_factory=dict)
     beyond: dict[str, float] = field(default_factory=dict)
+    base: str = ""
     drift: float = 0.0
     tilt: float = 0.0
     drop: float = 0.0
     sink: float = 0.0
-    swing: float = 0.0
+    swing: dict[str, float] = field(default_factory=dict)
+    held: frozenset[str] = frozenset()
+    floating: frozenset[str] = frozenset()
     speed: float = 0.0
-    is_free: bool = False
-    is_held: bool = True
 
     def list_faults(self) -> list[str]:
         """List all faults as text; empty for a model that runs."""
         return [*self.list_instabilities(), *self.list_excesses(), *self.describe_motion()]
+
+    @property
+    def is_held(self) -> bool:
+        """Tell whether a servo holds a joint that a free body carries, or there is none."""
+        return not self.floating or bool(self.held & self.floating)
 
     @property
     def moves(self) -> bool:
@@ -98,18 +108,25 @@ class Trial:
             return
         cause = "" if self.is_held else "; not held: no servo"
         at = f"(at {self.timestep * 1000:g} ms){cause}"
+        moved = f"{self.base} moves by {self.drift:.2g} m and tilts by {self.tilt:.2g}°"
         if self.tilt > FALLEN_TILT or self.drop > FALLEN_DROP:
-            yield f"falls: the base moves by {self.drift:.2g} m and tilts by {self.tilt:.2g}° {at}"
+            yield f"falls: {moved} {at}"
         elif self.sink > self.drift / 2:
-            yield f"sags by {self.sink:.2g} m, and tilts by {self.tilt:.2g}° {at}"
+            who = "" if self.base == THE_BASE else f"{self.base} "
+            yield f"{who}sags by {self.sink:.2g} m, and tilts by {self.tilt:.2g}° {at}"
         else:
-            yield f"the base moves by {self.drift:.2g} m and tilts by {self.tilt:.2g}° {at}"
+            yield f"{moved} {at}"
 
     def describe_swing(self) -> Iterator[str]:
-        """Describe the motion of the joints on a fixed base, if it is not held where it starts."""
-        if not self.is_free and self.swing > (SAG if self.is_held else SWING):
-            cause = "" if self.is_held else "; not held: no servo"
-            yield f"joints move by up to {self.swing:.2g} (at {self.timestep * 1000:g} ms){cause}"
+        """Describe the joints on a fixed base that do not stay where they start."""
+        moved = {name: amount for name, amount in self.swing.items()
+                 if amount > (SAG if name in self.held else SWING)}  # fmt: skip
+        if not moved:
+            return
+        worst = max(moved, key=lambda name: moved[name])
+        cause = "" if worst in self.held else "; not held: no servo"
+        at = f"(at {self.timestep * 1000:g} ms){cause}"
+        yield f"joints move by up to {moved[worst]:.2g}, '{worst}' most {at}"
 
     def list_instabilities(self) -> list[str]:
         """List warnings and divergence."""
@@ -164,10 +181,10 @@ def check_runs(
         for fault in trial.list_instabilities():
             check.compare(math.inf, fault, known=known or is_other)
         # the export does not determine whether a free robot stands or sags
-        for fault in trial.list_excesses():
-            check.compare(math.inf, fault, known=known or is_other or trial.is_free)
+        for name, fault in zip(trial.beyond, trial.list_excesses(), strict=True):
+            check.compare(math.inf, fault, known=known or is_other or name in trial.floating)
         for fault in trial.describe_swing():
-            check.compare(max(trial.swing, 2 * DRIFT), fault, known=True)
+            check.compare(max(*trial.swing.values(), 2 * DRIFT), fault, known=True)
         for fault in trial.describe_motion():
             check.compare(max(trial.drift, 2 * DRIFT), fault, known=True)
     return check
@@ -199,9 +216,14 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
     _start(mujoco, model, data)
     trial = Trial(timestep)
     bases = [int(body) for body in np.flatnonzero(_compute_free_bodies(mujoco, model))]
-    trial.is_free = bool(bases)
-    held = _list_held_joints(mujoco, model)
-    trial.is_held = model.njnt == len(bases) or bool((model.actuator_biasprm[:, 1:3] != 0).any())
+    names = _name_joints(mujoco, model)
+    trial.floating = frozenset(
+        name for joint, name in names.items() if model.body_rootid[model.jnt_bodyid[joint]] in bases
+    )
+    driven = _list_driven_joints(mujoco, model, data, by_position=False)
+    trial.held = frozenset(names[joint] for joint in driven if joint in names)
+    held = _list_driven_joints(mujoco, model, data, by_position=True)
+    limited = [joint for joint in sorted(held) if model.jnt_limited[joint] and joint in names]
     start, joints = _Pose(model, data, bases), np.array(data.qpos)
     while data.time < seconds:
         mujoco.mj_step(model, data)
@@ -211,15 +233,20 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
         if not np.isfinite(data.qpos).all() or abs(data.qvel).max(initial=0.0) > STOP:
             trial.drift = math.inf
             return trial
-        for joint, low, high in held:
+        for joint in limited:
             value = float(data.qpos[model.jnt_qposadr[joint]])
-            amount = max(low - value, value - high)
+            low, high = model.jnt_range[joint]
+            amount = float(max(low - value, value - high))
             if amount > BEYOND:
-                name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint) or str(joint)
-                trial.beyond[name] = max(amount, trial.beyond.get(name, 0.0))
-    trial.swing = float(abs(data.qpos - joints).max(initial=0.0))
+                trial.beyond[names[joint]] = max(amount, trial.beyond.get(names[joint], 0.0))
+    moved = abs(data.qpos - joints)
+    for joint, name in names.items():
+        if name not in trial.floating:
+            first = int(model.jnt_qposadr[joint])
+            count = 4 if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_BALL else 1
+            trial.swing[name] = float(moved[first : first + count].max())
     if bases:
-        _measure_motion(trial, start, _Pose(model, data, bases))
+        _measure_motion(mujoco, model, trial, start, _Pose(model, data, bases))
     trial.speed = float(abs(data.qvel).max(initial=0.0))
     return trial
 
@@ -228,20 +255,27 @@ class _Pose:
     """Places of the free bodies, and of the mass that each carries."""
 
     def __init__(self, model: Any, data: Any, bases: list[int]) -> None:
+        self.bodies = bases
         self.places = np.array(data.xpos[bases])
         self.up = np.array(data.xmat[bases])[:, 6:]  # the world's z axis in the body
         self.heights = np.array(data.subtree_com[bases])[:, 2]
         self.lowest = compute_lowest_point(import_mujoco_module(), model, data)
 
 
-def _measure_motion(trial: Trial, start: _Pose, end: _Pose) -> None:
-    """Record the largest motion of the free bodies."""
-    trial.drift = float(np.linalg.norm(end.places - start.places, axis=1).max())
-    trial.sink = float((start.places - end.places)[:, 2].max())
+def _measure_motion(mujoco: Any, model: Any, trial: Trial, start: _Pose, end: _Pose) -> None:
+    """Record the motion of the free body that moves most, by its drift and its tilt."""
+    drifts = np.linalg.norm(end.places - start.places, axis=1)
     cosines = np.clip((start.up * end.up).sum(axis=1), -1.0, 1.0)
-    trial.tilt = float(np.degrees(np.arccos(cosines)).max())
-    heights = np.maximum(start.heights - start.lowest, 1e-9)
-    trial.drop = float(((start.heights - end.heights) / heights).max())
+    tilts = np.degrees(np.arccos(cosines))
+    most = int(np.maximum(drifts / DRIFT, tilts / TILT).argmax())
+    body = start.bodies[most]
+    is_alone = (model.body_parentid[1:] == 0).sum() == 1
+    name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, body) or body
+    trial.base = THE_BASE if is_alone else f"body '{name}'"
+    trial.drift, trial.tilt = float(drifts[most]), float(tilts[most])
+    trial.sink = float(start.places[most, 2] - end.places[most, 2])
+    height = max(float(start.heights[most] - start.lowest), 1e-9)
+    trial.drop = float(start.heights[most] - end.heights[most]) / height
 
 
 def read_home_positions(mujoco: Any, model: Any) -> Array:
@@ -286,25 +320,43 @@ def _compute_free_bodies(mujoco: Any, model: Any) -> Array:
     return free
 
 
-def _list_held_joints(mujoco: Any, model: Any) -> list[tuple[int, float, float]]:
-    """List the joints that a servo holds, directly or by a mimic, with their limits."""
-    driven = {
-        int(model.actuator_trnid[number][0])
-        for number in range(model.nu)
-        if model.actuator_trntype[number] == mujoco.mjtTrn.mjTRN_JOINT
-        and model.actuator_biasprm[number][1] != 0
+def _name_joints(mujoco: Any, model: Any) -> dict[int, str]:
+    """Return the name of each joint that is not free; its number without a name."""
+    free, kind = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtObj.mjOBJ_JOINT
+    return {
+        joint: mujoco.mj_id2name(model, kind, joint) or str(joint)
+        for joint in range(model.njnt)
+        if model.jnt_type[joint] != free
     }
-    driven |= {
+
+
+def _list_driven_joints(mujoco: Any, model: Any, data: Any, *, by_position: bool) -> set[int]:
+    """List the joints that a servo moves, directly, by a tendon or by a mimic.
+
+    Args:
+        mujoco: The module.
+        model: The model.
+        data: Its state at the start, forwarded.
+        by_position: Whether servos of a velocity do not count.
+    """
+    terms = slice(1, 2) if by_position else slice(1, 3)
+    servos = np.flatnonzero((model.actuator_biasprm[:, terms] != 0).any(axis=1))
+    moment = np.zeros((model.nu, model.nv))
+    mujoco.mju_sparse2dense(
+        moment,
+        data.actuator_moment.ravel(),
+        data.moment_rownnz,
+        data.moment_rowadr,
+        data.moment_colind.ravel(),
+    )
+    freedoms = np.flatnonzero((moment[servos] != 0).any(axis=0))
+    driven = {int(model.dof_jntid[freedom]) for freedom in freedoms}
+    return driven | {
         int(model.eq_obj1id[number])
         for number in range(model.neq)
         if model.eq_type[number] == mujoco.mjtEq.mjEQ_JOINT
         and int(model.eq_obj2id[number]) in (-1, *driven)
     }
-    return [
-        (joint, float(model.jnt_range[joint][0]), float(model.jnt_range[joint][1]))
-        for joint in sorted(driven)
-        if model.jnt_limited[joint]
-    ]
 
 
 def _compile_on_floor(mujoco: Any, path: Path) -> Any:
