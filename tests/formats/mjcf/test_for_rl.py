@@ -36,7 +36,8 @@ def test_additions_are_written(write):
 @pytest.mark.parametrize("adds", [True, False])
 def test_additions_are_not_called_equal_to_the_source(write, adds):
     found = load(write("r.urdf", quadruped()))
-    options = Options(base="free", purpose="rl" if adds else "").complete()
+    choices = {"purpose": "rl"} if adds else {"actuators": "none"}
+    options = Options(base="free", **choices).complete()
     checks = verify_copy(found, options, write_mjcf(found, options))
     rows = {check.name: check for check in checks if check.tolerance < 1e-8}
     names = ("joint physics", "surface", "sensors")

@@ -340,3 +340,39 @@ def test_a_limit_that_stands_for_none_gives_no_gain(tmp_path, limit, expected):
     assert {check.verdict for check in written.checks} <= {"equal", "announced", "none"}
     (servo,) = etree.fromstring(written.text.encode()).find("actuator")
     assert (f"{float(servo.get('kv')):.1f}", servo.get("ctrlrange")) == expected
+
+
+@pytest.mark.parametrize(
+    ("choices", "stop"),
+    [
+        ({}, "0.004 1"),
+        ({"timestep": 0.001}, "0.002 1"),
+        ({"actuators": "motor"}, None),
+        ({"actuators": "none"}, None),
+    ],
+)
+def test_stops_are_as_stiff_as_the_step_allows_beside_assumed_servos(write, choices, stop):
+    written = export(write("r.urdf", robot(link("a"), link("b"), joint("j", "a", "b"))), **choices)
+    assert find(tree(written), "joint", "j").get("solreflimit") == stop
+
+
+@pytest.mark.library("mujoco")
+def test_a_servo_that_is_pushed_against_its_stop_stays_within_it(write, tmp_path):
+    """The target of a light arm is far beyond its stop, which MuJoCo's own stop does not hold."""
+    import mujoco
+
+    limit = '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="10" velocity="9"/>'
+    path = write("r.urdf", robot(link("a"), link("b", INERTIAL.replace("0.1", "0.001")),
+                                 joint("j", "a", "b", inside=limit)))  # fmt: skip
+    text = export(path).files["r.xml"].decode()
+    excess = []
+    for one in (text, text.replace('solreflimit="0.004 1"', "")):
+        model = mujoco.MjModel.from_xml_string(one.replace('inheritrange="1"', 'ctrlrange="-2 2"'))
+        data = mujoco.MjData(model)
+        data.ctrl[:] = 2
+        reached = []
+        while data.time < 0.3:
+            mujoco.mj_step(model, data)
+            reached.append(data.qpos[0] - 1)
+        excess.append(max(reached))
+    assert excess[0] < 0.25 * excess[1]

@@ -31,6 +31,7 @@ def test_limits_effort_and_dynamics(write):
         "actuatorfrcrange": "-87 87",
         "damping": "0.3",
         "frictionloss": "0.1",
+        "solreflimit": "0.004 1",
     }
     numeric = find(tree(written), "numeric", "j_velocity_limit")
     assert numeric.get("data") == "2.5"

@@ -82,10 +82,9 @@ def check_a_random_robot(write, odd, seed):
     same_robot = [check for check in checks if check.name != "runs"]  # random masses may diverge
     assert is_faithful(same_robot), format_check_table(checks)
     exact = {"lossy-inertia", "lossy-massless"}.isdisjoint(loss.code for loss in written.losses)
-    if exact:
-        assert {check.verdict for check in same_robot} <= WITHOUT_DIFFERENCE, format_check_table(
-            checks
-        )
+    if exact:  # stops of joints with servos are added to the source
+        verdicts = {check.verdict for check in same_robot if check.name != "joint physics"}
+        assert verdicts <= WITHOUT_DIFFERENCE, format_check_table(checks)
 
 
 def random_robots(count):

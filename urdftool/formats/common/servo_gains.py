@@ -155,9 +155,22 @@ def choose_velocity_gain(
 
 
 def report_gains(
-    robot: Robot, assumed: Mapping[str, Gain], timestep: float, written: Written
+    robot: Robot,
+    assumed: Mapping[str, Gain],
+    timestep: float,
+    written: Written,
+    *,
+    remark: str = "",
 ) -> None:
-    """Report that gains are assumed, which of them inertia bounds, and the sag at home."""
+    """Report that gains are assumed, which of them inertia bounds, and the sag at home.
+
+    Args:
+        robot: The robot.
+        assumed: Gains by the name of the joint.
+        timestep: Physics time step [s] for which they are chosen.
+        written: Receives the note, and joints that the servos do not hold.
+        remark: What else follows from them, for the note.
+    """
     if not assumed:
         return
     servos = "1 servo" if len(assumed) == 1 else f"{len(assumed)} servos"
@@ -186,7 +199,7 @@ def report_gains(
         )
     written.report_loss(
         "gains",
-        f"{text}; --actuator-config sets others",
+        f"{text}{remark and f'; {remark}'}; --actuator-config sets others",
         robot.place,
         severity=Severity.INFO,
         data={

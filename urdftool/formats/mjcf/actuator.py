@@ -8,7 +8,7 @@ overrides them. Position servos are critically damped for the inertia that the j
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from lxml import etree
@@ -16,6 +16,7 @@ from lxml import etree
 from ...model.elements import Joint, Robot
 from ...model.mechanism import JointActuator
 from ...model.numbers import format_numbers_text, number_text
+from ...model.settings import Settings, Value
 from ..common.actuator_config import JointSettings
 from ..common.drive_choice import AUTO, Drive, list_drives
 from ..common.joint_loads import JointLoad
@@ -34,6 +35,11 @@ from .joint import get_effort
 from .options import Options
 from .structure import Structure, get_bounds, get_locked_at
 
+STOP_STEPS = 2.0
+"""Time constant of a stop in time steps: the smallest that MuJoCo takes (documentation of
+``solref``: "at least two times larger than the simulation timestep").
+"""
+
 
 def plan_actuators(
     structure: Structure,
@@ -42,7 +48,7 @@ def plan_actuators(
     settings: Mapping[str, JointSettings],
     ground: Ground | None,
     written: Written,
-) -> list[JointActuator]:
+) -> tuple[list[JointActuator], dict[str, Settings]]:
     """Choose the actuators of a robot; those of its source if that is a model with actuators.
 
     Args:
@@ -52,11 +58,15 @@ def plan_actuators(
         settings: Settings by joint name, from the user.
         ground: Geometry near the ground, of a free base.
         written: Receives losses and the assumed gains.
+
+    Returns:
+        The actuators, and settings that follow from their gains, by the name of the joint.
     """
     kinds = {joint.name: structure.get_kind(joint) for joint in structure.moving}
     robot = structure.robot
     if options.actuators in AUTO and (robot.joint_actuators or robot.format == "mjcf"):
-        return [a for a in robot.joint_actuators if kinds.get(a.joint) in SINGLE]
+        own = [one for one in robot.joint_actuators if kinds.get(one.joint) in SINGLE]
+        return own, {}
     joints = [j for j in structure.moving if kinds[j.name] in SINGLE and get_locked_at(j) is None]
     drives = list_drives(structure, joints, options.actuators, settings, ground, written)
     if options.purpose == "rl":
@@ -66,10 +76,30 @@ def plan_actuators(
     made = []
     for drive in drives:
         name = drive.joint.name
-        load, own = loads.get(name, JointLoad()), settings.get(name, JointSettings())
-        made.append(_plan_actuator(drive, kinds[name], load, own, timestep, assumed))
-    report_gains(robot, assumed, timestep, written)
-    return made
+        load, chosen = loads.get(name, JointLoad()), settings.get(name, JointSettings())
+        made.append(_plan_actuator(drive, kinds[name], load, chosen, timestep, assumed))
+    stops = _choose_stops(drives, assumed, timestep)
+    remark = "the stops of these joints are as stiff as the step allows" if stops else ""
+    report_gains(robot, assumed, timestep, written, remark=remark)
+    return made, stops
+
+
+def _choose_stops(
+    drives: Iterable[Drive], assumed: Mapping[str, Gain], timestep: float
+) -> dict[str, Settings]:
+    """Choose the stops of joints with a position servo whose gain is assumed.
+
+    The servo may be 100 times stiffer than MuJoCo's default stop, and would push it in.
+    """
+    stiff = Value(None, (STOP_STEPS * timestep, 1.0))
+    return {
+        drive.joint.name: {"limit_solref": stiff}
+        for drive in drives
+        if drive.kind == "position"
+        and drive.joint.name in assumed
+        and get_bounds(drive.joint) is not None
+        and "limit_solref" not in drive.joint.settings
+    }
 
 
 def build_actuator_section(robot: Robot) -> etree._Element | None:

@@ -24,7 +24,10 @@ def announce_additions(checks: Sequence[Check], source: Robot, planned: Robot) -
         planned: The robot that the export writes.
     """
     rows = {
-        "joint physics": list_added_dynamics(source, planned),
+        "joint physics": (
+            *list_added_dynamics(source, planned),
+            *_list_added_stops(source, planned),
+        ),
         "sensors": _list_added_sensors(source, planned),
         "surface": _list_added_contact(source, planned),
     }
@@ -47,6 +50,18 @@ def list_added_dynamics(source: Robot, planned: Robot) -> Iterator[str]:
                 f"{name} added or changed at {len(values)} of {len(planned.joints)} joints "
                 f"(largest: {values[largest]:g}, of '{largest}')"
             )
+
+
+def _list_added_stops(source: Robot, planned: Robot) -> Iterator[str]:
+    added = [
+        joint.name
+        for joint in planned.joints
+        if "limit_solref" in joint.settings
+        and joint.name in source.joint
+        and "limit_solref" not in source.joint[joint.name].settings
+    ]
+    if added:
+        yield f"stiffness of stops added at {len(added)} of {len(planned.joints)} joints"
 
 
 def _list_added_sensors(source: Robot, planned: Robot) -> Iterator[str]:

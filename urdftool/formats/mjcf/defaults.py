@@ -12,7 +12,13 @@ from ..common.naming import UniqueNames
 from .gazebo import DEFAULT_FRICTION
 
 # attribute -> MuJoCo's default
-JOINT = {"axis": "0 0 1", "damping": "0", "frictionloss": "0", "armature": "0"}
+JOINT = {
+    "axis": "0 0 1",
+    "damping": "0",
+    "frictionloss": "0",
+    "armature": "0",
+    "solreflimit": "0.02 1",
+}
 GEOM = {"type": "sphere", "friction": DEFAULT_FRICTION}
 
 VISUAL = {"contype": "0", "conaffinity": "0", "group": "2"}

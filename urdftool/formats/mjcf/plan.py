@@ -138,7 +138,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     ]
     frames = [*sites, *(frame for frame in robot.frames if frame.kind != "body")]
     sensors = plan_sensors(structure, frames, written, base=options.base_sensors)
-    actuators = plan_actuators(structure, options, loads, settings, ground, written)
+    actuators, stops = plan_actuators(structure, options, loads, settings, ground, written)
     feet = find_feet(structure, ground, home.pose, home.positions) if is_for_rl else frozenset()
     if is_for_rl:
         driven = {actuator.joint for actuator in actuators}
@@ -146,7 +146,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     links = [_set_priority(link, robot.format) for link in structure.robot.links]
     planned = replace(
         structure.robot,
-        joints=_set_efforts(structure.robot, actuators),
+        joints=_set_stops(_set_efforts(structure.robot, actuators), stops),
         frames=[*sensors.frames, *_list_body_frames(robot)],
         mounted_sensors=sensors.sensors,
         cameras=sensors.cameras,
@@ -194,6 +194,16 @@ def _set_efforts(robot: Robot, actuators: list[JointActuator]) -> list[Joint]:
             joint = replace(joint, limit=replace(limit, effort=forces[joint.name]))
         joints.append(joint)
     return joints
+
+
+def _set_stops(joints: list[Joint], stops: Mapping[str, Settings]) -> list[Joint]:
+    """Return the joints with the settings of their stops."""
+    return [
+        replace(joint, settings=stops[joint.name] | joint.settings)
+        if joint.name in stops
+        else joint
+        for joint in joints
+    ]
 
 
 def _list_configurations(

@@ -197,7 +197,7 @@ def _make_link(link: Link, planned: Robot) -> Link:
 
 
 def _make_joint(joint: Joint, source: Robot) -> Joint:
-    """Return a joint of the source with the dynamics and effort that are chosen."""
+    """Return a joint of the source with the dynamics, effort and stops that are chosen."""
     origin = source.joint.get(joint.name)
     if origin is None or origin.parent != joint.parent:
         return joint
@@ -205,7 +205,8 @@ def _make_joint(joint: Joint, source: Robot) -> Joint:
     if joint.limit is not None and (limit is None or joint.limit.effort != limit.effort):
         lower, upper = (limit.lower, limit.upper) if limit is not None else (None, None)
         limit = replace(joint.limit, lower=lower, upper=upper)
-    return replace(origin, dynamics=joint.dynamics, limit=limit)
+    settings = joint.settings | origin.settings
+    return replace(origin, dynamics=joint.dynamics, limit=limit, settings=settings)
 
 
 def _compare_read(expected: Robot, written: Written, reading: Reading) -> list[Check]:
