@@ -94,7 +94,8 @@ def test_export_mjcf_is_what_the_command_writes(tmp_path, monkeypatch, urdftool)
 @pytest.mark.skipif(not find_spec("mujoco"), reason="MuJoCo compiles it")
 def test_export_mjcf_compares():
     checks = api.export_mjcf(api.load(ARM), verify=True).checks
-    assert {check.verdict for check in checks} == {"equal", "none"}
+    other = [check.name for check in checks if check.verdict not in ("equal", "none")]
+    assert other == ["joint physics"]  # stops, which are added beside servos
 
 
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])

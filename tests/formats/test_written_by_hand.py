@@ -80,7 +80,15 @@ NUMBER = re.compile(r"(?<![\w.:-])-?\d+(?:\.\d+)?(?:e-?\d+)?(?![\w.:])")
 CONVENTIONS = {
     "urdf": ("version",),
     "sdf": ("<sdf version",),
-    "mjcf": ("<geom contype", "<geom group", "<position ", "<key ", "<numeric ", "priority"),
+    "mjcf": (
+        "<geom contype",
+        "<geom group",
+        "<position ",
+        "<key ",
+        "<numeric ",
+        "priority",
+        "<joint sol",
+    ),
     "usd": (
         *("customLayerData", "PerUnit", "timeCodes", "usda", "extent", "xformOp:orient", "state:"),
         *("inputs:metallic", "inputs:roughness", "newton:self", "physxArticulation:"),
