@@ -67,10 +67,11 @@ class _Reading:
 
 
 def list_settings(robot: Robot) -> Iterator[tuple[str, str, Sequence[Setting], Settings]]:
-    """Yield kind and name of each link and joint with its rows and settings.
+    """Yield kind and name of the robot, each link and each joint with its rows and settings.
 
     The settings of several collisions of a link are yielded once if they are the same.
     """
+    yield "robot", robot.name, OF_ROBOT, robot.settings
     for link in robot.links:
         yield "link", link.name, ALL_OF_LINKS, link.settings
         surfaces = {id(shape.surface): shape.surface for shape in link.collisions}

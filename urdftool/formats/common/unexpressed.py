@@ -6,12 +6,12 @@ from collections.abc import Callable, Container, Iterable, Iterator
 from typing import NamedTuple
 
 from ...diagnostic import Severity
-from ...model.appearance import find_unknown_script
+from ...model.appearance import APPEARANCE, find_unknown_script
 from ...model.elements import BALL_TYPES, Link, Material, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
 from ...model.part import Part
 from ...model.read_settings import list_settings
-from ...model.settings import ALL_OF_LINKS, LUMPING_TAGS, Setting
+from ...model.settings import ALL_OF_LINKS, LUMPING_TAGS, Setting, Settings, Value
 from ...model.world_settings import describe_setting, list_changed, list_decided
 from ...source.document import Element
 from ..written import Written
@@ -93,7 +93,10 @@ def _report_kinds(kinds: Iterable[_Kind], written: Written) -> None:
 
 
 def report_unwritten_settings(
-    robot: Robot, written: Written, has_counterpart: Callable[[Setting], object]
+    robot: Robot,
+    written: Written,
+    has_counterpart: Callable[[Setting], object],
+    is_reported: Callable[[Value], bool] = lambda value: False,
 ) -> None:
     """Report the settings that a format does not have, unless they are those of SDF without them.
 
@@ -101,13 +104,16 @@ def report_unwritten_settings(
         robot: The source.
         written: The export, which receives the losses.
         has_counterpart: Tells whether the format has a setting.
+        is_reported: Tells whether the writer reports the element of a value.
     """
     for kind, name, rows, settings in list_settings(robot):
         for row in rows:
             value = settings.get(row.name)
             if value is None or value.content == row.default:
                 continue
-            if has_counterpart(row) or not LUMPING_TAGS.isdisjoint(row.tags):
+            if has_counterpart(row) or is_reported(value):
+                continue
+            if not _EXPRESSED_TAGS.isdisjoint(row.tags):
                 continue
             written.report_loss(
                 "setting",
@@ -119,13 +125,53 @@ def report_unwritten_settings(
             )
 
 
-def report_unknown_colors(robot: Robot, written: Written) -> None:
-    """Report scripts of Gazebo that color visuals, once a link.
+_EXPRESSED_TAGS = LUMPING_TAGS | {"static"}
+"""Tags of settings that are in the structure of the robot: which joints are kept, and its base."""
+
+
+def _report_appearance(robot: Robot, written: Written) -> None:
+    """Report what visuals have beside a color and an image, once a robot."""
+    lost: dict[str, None] = {}
+    visuals = []
+    for link in robot.links:
+        for visual in link.visuals:
+            dropped = [row.name for row in APPEARANCE if _is_dropped(row, visual.appearance)]
+            lost |= dict.fromkeys(dropped)
+            visuals += [visual] if dropped else []
+    if not visuals:
+        return
+    names = ", ".join(name.replace("_", " ") for name in lost)
+    count = f"{len(visuals)} visuals" if len(visuals) > 1 else "a visual"
+    text = f"{names} of {count} {'are' if len(lost) > 1 else 'is'} dropped"
+    written.report_loss(
+        "appearance",
+        text,
+        visuals[0].place,
+        kind="robot",
+        name=robot.name,
+        severity=Severity.INFO,
+    )
+
+
+def _is_dropped(row: Setting, shown: Settings) -> bool:
+    """Tell whether a value is neither that of SDF without it nor in the color of a visual."""
+    value = shown.get(row.name)
+    if value is None or value.content == row.default or row.name in ("diffuse", "transparency"):
+        return False
+    diffuse = shown.get("diffuse")
+    if row.name == "ambient" and diffuse is not None:
+        return diffuse.content != value.content
+    return row.name != "metalness" or bool(value.content)  # no metal is what others show
+
+
+def report_looks(robot: Robot, written: Written) -> None:
+    """Report scripts of Gazebo that color visuals, and what these have beside color and image.
 
     Args:
         robot: The source.
         written: The export, which receives the losses.
     """
+    _report_appearance(robot, written)
     for link in robot.links:
         scripts: set[str] = set()
         for visual in link.visuals:

@@ -8,7 +8,7 @@ from ...diagnostic import Severity
 from ...model.blocks import list_elements
 from ...model.elements import Collision, GazeboExtension, Link, Robot
 from ...model.numbers import format_content, format_numbers_text
-from ...model.settings import SURFACE_OF_MUJOCO, Setting, Settings, get_number
+from ...model.settings import SURFACE_OF_MUJOCO, Setting, Settings, Value, get_number, is_set
 from ...source.document import Element
 from ..common.unexpressed import report_unwritten_settings
 from ..written import Written
@@ -103,10 +103,33 @@ def _is_written(row: Setting) -> bool:
     return bool(row.mjcf) or row.name in ("restitution", "self_collide")
 
 
+def _is_reported(value: Value) -> bool:
+    """Tell whether the element of a ``<gazebo>`` block that holds a value is reported itself."""
+    element = value.xml
+    while element is not None and element.parent is not None:
+        if element.parent.tag == "gazebo":
+            return element.tag not in KNOWN
+        element = element.parent
+    return False
+
+
+def _report_self_collision(robot: Robot, written: Written) -> None:
+    """Report the flags of self-collision of a robot that was not read from URDF, once."""
+    owners: list[Robot | Link] = [robot, *robot.links]
+    flags = [one.settings["self_collide"] for one in owners if is_set(one.settings, "self_collide")]
+    if flags:
+        why, severity = LOST["self_collide"]
+        text = f"self collide of robot '{robot.name}' is not written: {why}"
+        written.report_loss(
+            "setting", text, flags[0].place, kind="robot", name=robot.name, severity=severity
+        )
+
+
 def report_gazebo_losses(robot: Robot, written: Written) -> None:
     """Report the settings and extensions that are not exported."""
+    report_unwritten_settings(robot, written, _is_written, _is_reported)
     if robot.xml is None:
-        report_unwritten_settings(robot, written, _is_written)
+        _report_self_collision(robot, written)
     for block, child in list_elements(robot):
         reference = block.reference
         if reference is None or reference in robot.link or reference in robot.joint:

@@ -17,7 +17,7 @@ from ...source.document import parse, read_file
 from ...source.packages import find_own_package, shorten_path
 from ..common.directory import mark
 from ..common.naming import replace_file_name, shorten_file_name
-from ..common.unexpressed import report_unexpressed, report_unknown_colors
+from ..common.unexpressed import report_looks, report_unexpressed
 from ..defects import FATAL, make_defect, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
 from .copied import has_copies, list_uncopied
@@ -62,7 +62,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     model = get_model_name(robot)
     written = Written(options.file or f"{shorten_file_name(model)}.xml")
     _report_unexpressed(robot, written)
-    report_unknown_colors(robot, written)
+    report_looks(robot, written)
     written.losses += world if options.force else []
     found = [
         *([] if options.force else world),

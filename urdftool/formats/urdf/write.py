@@ -23,7 +23,11 @@ from ..common.force_fallbacks import (
 )
 from ..common.missing_bounds import explain_missing_bounds
 from ..common.naming import replace_file_name, shorten_file_name
-from ..common.unexpressed import report_other_elements, report_world_settings
+from ..common.unexpressed import (
+    report_other_elements,
+    report_unwritten_settings,
+    report_world_settings,
+)
 from ..defects import refuse
 from ..written import Written
 from .control import add_control
@@ -242,6 +246,7 @@ def _report_unexpressed(t: Translation) -> None:
     robot = t.robot
     if robot.xml is None:
         report_world_settings(robot, t.written)
+        report_unwritten_settings(robot, t.written, lambda row: row.path)
     else:
         copied = {element.tag for element in robot.xml.children} - {"mujoco"}
         report_other_elements(robot, t.written, expressed=copied)

@@ -9,8 +9,8 @@ from ...model.elements import Robot
 from ...model.part import Part
 from ...model.settings import Setting
 from ..common.unexpressed import (
+    report_looks,
     report_unexpressed,
-    report_unknown_colors,
     report_unwritten_settings,
 )
 from ..written import Written
@@ -32,7 +32,7 @@ def report_losses(robot: Robot, written: Written) -> None:
     """Report each part that is not written."""
     report_unexpressed(robot, written, expressed=EXPRESSED)
     report_unwritten_settings(robot, written, _is_written)
-    report_unknown_colors(robot, written)
+    report_looks(robot, written)
     for code, what, part, name in _list_parts(robot):
         written.report_loss(
             code,

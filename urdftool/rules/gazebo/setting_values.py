@@ -120,7 +120,7 @@ def _list_bullet(robot: Robot) -> Iterator[_Written]:
 def _list_others(robot: Robot) -> Iterator[_Written]:
     """Yield the elements of SDF that the model has; ``invalid-sdf-value`` reports others."""
     for kind, name, rows, settings in list_settings(robot):
-        part = robot.link.get(name) if kind == "link" else robot.joint.get(name)
+        part = {"link": robot.link.get(name), "joint": robot.joint.get(name)}.get(kind)
         for row in rows:
             value = settings.get(row.name)
             if part is not None and value is not None and value.xml is not None:
