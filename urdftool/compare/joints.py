@@ -13,7 +13,7 @@ from ..mechanics.reference import Array
 from ..model.elements import BALL_TYPES, Joint, Limit, Mimic, Robot
 from ..model.kinematics import UNLIMITED, follow_mimic_chain, get_limits
 from ..model.part import Part
-from ..model.settings import RESISTANCE, split_unit
+from ..model.settings import MAGNITUDES, RESISTANCE, split_unit
 from .bodies import HINGES, compute_axis
 from .difference import Comparison, Difference
 from .frames import format_vector
@@ -176,7 +176,7 @@ def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comp
         note = "negated, since the axis is opposite" if sign < 0 else ""
         values = _show(x), _show(y)
         _add(comparison, match, "limits", what, values, unit, measure(x, y), note, parts)
-    for what in ("effort", "velocity"):
+    for what in MAGNITUDES:
         unit = get_unit(one, "limit", what)
         limits = [_get_bound(limit, what) for limit in parts]
         if _is_unknown(pair, match, what):

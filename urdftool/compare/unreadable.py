@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from ..model.elements import Robot
 from ..model.numbers import parse_numbers
-from ..model.settings import RESISTANCE_OF_URDF
+from ..model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 from ..source.document import Element
 
 _SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -149,7 +149,7 @@ def _is_unreadable(name: str, text: str) -> bool:
 
 _NUMBERS = frozenset((
     *_COUNTS, *_SIX,
-    *("value", "radius", "length", "lower", "upper", "effort", "velocity", "acceleration", "jerk"),
+    *("value", "radius", "length", *LIMIT_NAMES, "acceleration", "jerk"),
     *RESISTANCE_OF_URDF, *("deceleration", "multiplier", "offset", "soft_lower_limit"),
     *("soft_upper_limit", "k_position", "k_velocity", "rising", "falling", "reference_position"),
 ))  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..errors import ModelError
 from ..model.numbers import parse_numbers
-from ..model.settings import RESISTANCE_OF_URDF
+from ..model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 from ..source.document import Element
 from .draft import Draft
 from .numbers import format_number, format_relative
@@ -12,7 +12,7 @@ from .numbers import format_number, format_relative
 _ATTRIBUTES = {
     "origin": ("xyz", "rpy"),
     "axis": ("xyz",),
-    "limit": ("lower", "upper", "effort", "velocity"),
+    "limit": LIMIT_NAMES,
     "mimic": ("multiplier", "offset"),
     "dynamics": RESISTANCE_OF_URDF,
     "safety_controller": ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"),

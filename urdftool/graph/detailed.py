@@ -22,6 +22,7 @@ from ..model.elements import (
 )
 from ..model.mechanism import Camera, MountedSensor
 from ..model.references import list_blocks
+from ..model.settings import LIMIT_NAMES, OF_LIMITS, split_unit
 from ..model.shapes import get_shape_name
 from .figure import Edge, Figure, Node
 from .formatting import format_numbers, number
@@ -140,9 +141,7 @@ def _make_joint_node(joint: Joint, transmissions: list[Transmission]) -> Node:
         "parent": joint.parent,
         "child": joint.child,
         "axis": list(axis) if joint.has_axis else None,
-        "limit": None
-        if limit is None
-        else {name: getattr(limit, name) for name in ("lower", "upper", "effort", "velocity")},
+        "limit": None if limit is None else {name: getattr(limit, name) for name in LIMIT_NAMES},
         "mimic": None
         if mimic is None
         else {"joint": mimic.joint, "multiplier": mimic.multiplier, "offset": mimic.offset},
@@ -182,11 +181,8 @@ def _format_limits(joint: Joint) -> list[str]:
     if joint.is_limited:
         unit = "m" if slides else "rad"
         lines.append(f"{number(limit.lower or 0.0)} … {number(limit.upper or 0.0)} {unit}")
-    rates = []
-    if limit.effort is not None:
-        rates.append(f"{number(limit.effort)} {'N' if slides else 'N·m'}")
-    if limit.velocity is not None:
-        rates.append(f"{number(limit.velocity)} {'m/s' if slides else 'rad/s'}")
+    written = [(getattr(limit, row.name), split_unit(row.unit)[slides]) for row in OF_LIMITS]
+    rates = [f"{number(value)} {unit}" for value, unit in written if value is not None]
     if rates and not joint.is_fixed:
         lines.append("at most " + ", ".join(rates))
     return lines

@@ -14,7 +14,7 @@ from ..diagnostic import Severity
 from ..errors import ModelError
 from ..finding import Finding
 from ..model.elements import Joint, Link, Robot
-from ..model.settings import RESISTANCE_OF_URDF
+from ..model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 from ..rules import get_rule
 from ..rules.rule import Problem
 
@@ -45,7 +45,7 @@ _WRITTEN = _make_conditions(
     attribute=(
         *("xyz", "rpy", "quat_xyzw", "size", "radius", "length", "scale", "rgba"),
         *("value", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
-        *("lower", "upper", "effort", "velocity"),
+        *LIMIT_NAMES,
         *RESISTANCE_OF_URDF,
         *("multiplier", "offset"),
     ),

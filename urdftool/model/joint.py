@@ -145,6 +145,11 @@ class Joint(Part):
         """Tell whether the type requires limits."""
         return self.type in ("revolute", "prismatic")
 
+    def get_magnitude(self, name: str) -> float | None:
+        """Return the limit of ``effort`` or ``velocity`` without its sign; None if not written."""
+        value = getattr(self.limit, name, None)
+        return None if value is None else abs(value)
+
     def get_resistance(self, name: str) -> float:
         """Return ``damping``, ``friction`` or ``armature``; 0 if it is not written or negative."""
         return max(getattr(self.dynamics, name, None) or 0.0, 0.0)

@@ -19,7 +19,7 @@ from .mechanism import NativeElement
 from .pose import IDENTITY, Pose, rpy_from_rotation
 from .provenance import Written
 from .sensors import read_sensor_pose
-from .settings import OF_JOINTS, RESISTANCE, SURFACE, Setting, Value
+from .settings import LIMIT_NAMES, OF_JOINTS, RESISTANCE, SURFACE, Setting, Value
 from .world_settings import OF_SDF
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ HELD_PATHS = {
     ),
     "joint": (
         *("parent", "child", "pose", "axis/xyz", "axis/mimic", "sensor", "plugin"),
-        *(f"axis/limit/{end}" for end in ("lower", "upper", "effort", "velocity")),
+        *(f"axis/limit/{end}" for end in LIMIT_NAMES),
         "axis/use_parent_model_frame",
         *_list_paths((*RESISTANCE, *OF_JOINTS)),
     ),

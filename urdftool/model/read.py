@@ -49,7 +49,7 @@ from .native import list_block_elements
 from .numbers import number as number
 from .numbers import parse_numbers as parse_numbers
 from .read_settings import add_settings
-from .settings import RESISTANCE_OF_URDF
+from .settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 from .shapes import collect_content
 from .world_settings import read_options
 
@@ -205,8 +205,7 @@ def _set_child(joint: Joint, element: Element) -> None:
 
 
 def _limit(element: Element) -> Limit:
-    names = ("lower", "upper", "effort", "velocity")
-    return Limit(element, *(number(element.attributes.get(name)) for name in names))
+    return Limit(element, *(number(element.attributes.get(name)) for name in LIMIT_NAMES))
 
 
 def _set_once(name: str, read: Callable[[Element], object]) -> Callable[[Joint, Element], None]:

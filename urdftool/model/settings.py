@@ -187,6 +187,21 @@ RESISTANCE = add_kinds("joint", (
 RESISTANCE_OF_URDF = tuple(row.name for row in RESISTANCE if row.path)
 """Attributes of ``<dynamics>`` in URDF, which are elements of ``<dynamics>`` in SDF."""
 
+OF_LIMITS = add_kinds("joint", (
+    Setting("effort", "N·m or N", "axis/limit/effort", math.inf,
+            mjcf="joint actuatorfrcrange", usd="physics:maxForce"),
+    Setting("velocity", "rad/s or m/s", "axis/limit/velocity", math.inf,
+            usd="newton:velocityLimit", physx=("physxJointAxis:*:maxJointVelocity",
+                                               "physxJoint:maxJointVelocity")),
+))  # fmt: skip
+"""Magnitudes in ``Limit`` of a joint, which are attributes of ``<limit>`` in URDF, too."""
+
+MAGNITUDES = tuple(row.name for row in OF_LIMITS)
+"""Names of the magnitudes in ``Limit``."""
+
+LIMIT_NAMES = ("lower", "upper", *MAGNITUDES)
+"""Attributes of ``<limit>`` of URDF and elements of ``<limit>`` of SDF."""
+
 OF_ROBOT = add_kinds(
     "model",
     (

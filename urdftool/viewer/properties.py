@@ -24,7 +24,7 @@ from ..model.elements import (
     Visual,
 )
 from ..model.pose import Pose, make_pose, rpy_from_rotation
-from ..model.settings import RESISTANCE_OF_URDF
+from ..model.settings import OF_LIMITS, RESISTANCE_OF_URDF, split_unit
 from ..model.shapes import get_shape_name
 from .sliders import format_value
 
@@ -127,11 +127,10 @@ def list_joint_rows(joint: Joint) -> Iterator[Row]:
         )
     elif joint.is_limited:
         yield "limits", _MISSING
-    if limit is not None:
-        if limit.effort is not None:
-            yield "effort", f"{limit.effort:g} {'N·m' if turns else 'N'}"
-        if limit.velocity is not None:
-            yield "velocity", f"{limit.velocity:g} {'rad/s' if turns else 'm/s'}"
+    for row in OF_LIMITS:
+        value = getattr(limit, row.name, None)
+        if value is not None:
+            yield row.name, f"{value:g} {split_unit(row.unit)[not turns]}"
     if joint.dynamics is not None:
         for label in RESISTANCE_OF_URDF:
             value = getattr(joint.dynamics, label)

@@ -66,8 +66,7 @@ def choose_holding_positions(
 
 def _get_effort(joint: Joint) -> float | None:
     """Return the effort limit [N·m]; None without one."""
-    limit = joint.limit
-    return drop_unlimited(None if limit is None or limit.effort is None else abs(limit.effort))
+    return drop_unlimited(joint.get_magnitude("effort"))
 
 
 def _find_nearest(

@@ -72,8 +72,7 @@ def create_locked_site(joint: Joint, written: Written) -> etree._Element:
 
 def get_effort(joint: Joint) -> float | None:
     """Return the effort limit [N·m or N] of a joint; None if it has none or zero."""
-    effort = joint.limit.effort if joint.limit is not None else None
-    return abs(effort) if effort else None
+    return joint.get_magnitude("effort") or None
 
 
 def _build_single(

@@ -8,7 +8,7 @@ from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Vector
 from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import compute_cross, compute_norm
-from ...model.settings import RESISTANCE
+from ...model.settings import MAGNITUDES, RESISTANCE
 from ..common.actuator_config import JointSettings
 from ..common.missing_bounds import explain_missing_bounds
 from .extensions import convert_joint_extensions, report_dissolved_joint
@@ -126,7 +126,8 @@ def _set_most(node: Node, t: Translation, part: Joint) -> None:
         add(node, "effort", number_text(get_effort(chosen)))
     if limit is None:
         return
-    for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
+    for name in MAGNITUDES:
+        value = getattr(limit, name)
         if value is None or (name == "effort" and chosen is not None):
             continue
         if value < 0:

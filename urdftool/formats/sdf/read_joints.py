@@ -17,7 +17,7 @@ from ...model.pose import IDENTITY, Pose, get_origin_at, rotate
 from ...model.provenance import Written
 from ...model.read_settings import read_sdf_settings
 from ...model.sensors import read_sensor
-from ...model.settings import OF_JOINTS, RESISTANCE_OF_URDF, Settings
+from ...model.settings import MAGNITUDES, OF_JOINTS, RESISTANCE_OF_URDF, Settings
 from ...model.world import WORLD
 from ...source.document import Element
 from .read_links import Context, normalize_direction
@@ -247,7 +247,7 @@ def _limit(element: Element | None, kind: str, written: Written) -> Limit | None
     if holder is None:
         return None
     lower, upper = number(holder, "lower", -math.inf), number(holder, "upper", math.inf)
-    effort, velocity = (number(holder, tag, -1.0) for tag in ("effort", "velocity"))
+    effort, velocity = (number(holder, tag, -1.0) for tag in MAGNITUDES)
     limit = Limit(
         Written(holder.place),
         lower if lower > -UNLIMITED else -math.inf,

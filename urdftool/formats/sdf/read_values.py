@@ -7,12 +7,13 @@ import math
 from ...errors import ModelError
 from ...model.elements import Vector
 from ...model.pose import IDENTITY, Pose, rotation_from_quaternion, rotation_from_rpy
+from ...model.settings import LIMIT_NAMES
 from ...source.document import Element
 from ..reading import LARGEST
 
 Version = tuple[int, int]
 
-_MAY_BE_INFINITE = ("lower", "upper", "effort", "velocity")
+_MAY_BE_INFINITE = LIMIT_NAMES
 """Elements in which a large number means no limit."""
 
 

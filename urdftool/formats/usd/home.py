@@ -142,12 +142,12 @@ def _make_servo(
     """Choose the gains of a servo; a position servo is critically damped at home."""
     joint = drive.joint
     kind = "slide" if joint.type == "prismatic" else "hinge"
-    limit, force = joint.limit, settings.force_range
-    effort = drop_unlimited(None if limit is None or limit.effort is None else abs(limit.effort))
+    force = settings.force_range
+    effort = drop_unlimited(joint.get_magnitude("effort"))
     if force is not None:
         effort = max(map(abs, force))
     if drive.kind == "velocity":
-        velocity = abs(drop_unlimited(None if limit is None else limit.velocity) or 0.0)
+        velocity = drop_unlimited(joint.get_magnitude("velocity")) or 0.0
         gain = choose_velocity_gain(kind, effort, velocity, load, timestep)
         stiffness, damping = 0.0, gain.value
     else:

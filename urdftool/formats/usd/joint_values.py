@@ -11,7 +11,7 @@ from ...diagnostic import Severity
 from ...model.drives import list_servo_joints
 from ...model.elements import Joint
 from ...model.mechanism import JointActuator
-from ...model.settings import RESISTANCE, RESISTANCE_OF_URDF
+from ...model.settings import MAGNITUDES, RESISTANCE, RESISTANCE_OF_URDF
 from ..common.actuator_config import JointSettings
 from ..common.described_gains import choose_joint_settings
 from ..common.missing_bounds import explain_negative_effort
@@ -89,12 +89,12 @@ def choose_joint_values(
 
 def get_own_values(joint: Joint) -> JointValues:
     """Return the values of the description of a joint, without gains; none is negative."""
-    limit = joint.limit
-    effort = limit.effort if limit is not None else None
-    velocity = limit.velocity if limit is not None else None
+    written = {name: joint.get_magnitude(name) for name in MAGNITUDES}
+    finite = {name: value for name, value in written.items() if value and math.isfinite(value)}
+    if written["effort"] == 0:
+        finite["effort"] = 0.0
     return JointValues(
-        effort=None if effort is None or not math.isfinite(effort) else abs(effort),
-        velocity=None if not velocity or not math.isfinite(velocity) else abs(velocity),
+        **finite,
         **{row.name: joint.get_resistance(row.name) for row in RESISTANCE},
     )
 

@@ -11,13 +11,10 @@ from collections.abc import Mapping
 
 from pxr import Sdf, Usd
 
-from ...model.settings import RESISTANCE
+from ...model.settings import OF_LIMITS, RESISTANCE
 from .stage import apply, set_targets, set_value
 
-_NAMES = {
-    "velocityLimit": ("physxJointAxis:*:maxJointVelocity", "physxJoint:maxJointVelocity"),
-    **{row.usd.partition(":")[2]: row.physx for row in RESISTANCE},
-}
+_NAMES = {row.usd.partition(":")[2]: row.physx for row in (*OF_LIMITS, *RESISTANCE) if row.physx}
 """Attributes of PhysX for each of ``NewtonJointAPI``; releases before ``PhysxJointAxisAPI`` read
 those of ``PhysxJointAPI``."""
 

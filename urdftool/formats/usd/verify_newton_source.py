@@ -111,8 +111,8 @@ def get_inertial(link: Link) -> tuple[float, Array, Array]:
 
 def get_effort(joint: Joint) -> float:
     """Return the effort limit of a joint; infinity without one."""
-    effort = joint.limit.effort if joint.limit is not None else None
-    return np.inf if effort is None else abs(effort)
+    effort = joint.get_magnitude("effort")
+    return np.inf if effort is None else effort
 
 
 def get_gains(robot: Robot, joint: Joint) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ...model.actuation import find_actuated_joints, find_measured_joints, is_passive
 from ...model.elements import Joint, Limit, Robot
 from ...model.read import number
-from ...model.settings import RESISTANCE_OF_URDF
+from ...model.settings import MAGNITUDES, RESISTANCE_OF_URDF
 from ..fix import (
     FixContext,
     Proposal,
@@ -150,7 +150,8 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
     for joint in robot.joints:
         if joint.limit is None:
             continue
-        for name, value in (("effort", joint.limit.effort), ("velocity", joint.limit.velocity)):
+        for name in MAGNITUDES:
+            value = getattr(joint.limit, name)
             if value is not None and value < 0:
                 yield Problem(
                     joint,

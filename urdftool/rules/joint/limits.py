@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ...model.elements import JOINT_TYPES, Joint, Limit, Robot
 from ...model.read import number
+from ...model.settings import MAGNITUDES
 from ..fix import (
     FixContext,
     Proposal,
@@ -94,7 +95,7 @@ def limit_without_effort_or_velocity(robot: Robot) -> Iterator[Problem]:
         if limit is None or joint.type.lower() not in JOINT_TYPES:
             continue
         attributes = limit.element.attributes
-        missing = [name for name in ("effort", "velocity") if name not in attributes]
+        missing = [name for name in MAGNITUDES if name not in attributes]
         if missing and (meant := find_misspelled_attributes(limit.element)):
             missing = [name for name in missing if name not in meant.values()]
         if missing:
@@ -130,7 +131,7 @@ def write_usual_limits(problem: Problem, context: FixContext) -> Proposal | None
             return None
         return safe("remove the <limit> of the fixed joint", remove_element(limit.element))
     changes, written = [], []
-    for name in ("effort", "velocity"):
+    for name in MAGNITUDES:
         if name not in limit.element.attributes:
             value = _get_usual_value(context.robot, joint, name)
             if value is None:

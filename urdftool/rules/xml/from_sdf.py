@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...model.read import number, parse_numbers
-from ...model.settings import RESISTANCE_OF_URDF
+from ...model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 from ...source.document import Element
 from ..fix import (
     Change,
@@ -28,7 +28,7 @@ _AS_ATTRIBUTE = {
     "sphere": {"radius": "radius"},
     "mesh": {"uri": "filename", "scale": "scale"},
     "axis": {"xyz": "xyz"},
-    "limit": {name: name for name in ("lower", "upper", "effort", "velocity")},
+    "limit": {name: name for name in LIMIT_NAMES},
     "inertia": {name: name for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")},
 }
 

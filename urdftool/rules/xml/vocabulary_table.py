@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from ...model.elements import Robot
-from ...model.settings import RESISTANCE_OF_URDF
+from ...model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 from ...source.document import Element
 
 
@@ -69,11 +69,7 @@ VOCABULARY: dict[str, ElementType] = {
     "parent": ElementType(words=("link",)),
     "child": ElementType(words=("link",)),
     "axis": ElementType(numbers={"xyz": 3}),
-    "limit": ElementType(
-        numbers=_count_one(
-            "lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"
-        )
-    ),
+    "limit": ElementType(numbers=_count_one(*LIMIT_NAMES, "acceleration", "deceleration", "jerk")),
     "dynamics": ElementType(numbers=_count_one(*RESISTANCE_OF_URDF)),
     "mimic": ElementType(numbers=_count_one("multiplier", "offset"), words=("joint",)),
     "safety_controller": ElementType(
