@@ -130,7 +130,7 @@ _EXPRESSED_TAGS = LUMPING_TAGS | {"static"}
 
 
 def _report_appearance(robot: Robot, written: Written) -> None:
-    """Report what visuals have beside a color and an image, once a robot."""
+    """Report what visuals have in addition to a color and an image, once a robot."""
     lost: dict[str, None] = {}
     visuals = []
     for link in robot.links:
@@ -165,7 +165,7 @@ def _is_dropped(row: Setting, shown: Settings) -> bool:
 
 
 def report_looks(robot: Robot, written: Written) -> None:
-    """Report scripts of Gazebo that color visuals, and what these have beside color and image.
+    """Report scripts of Gazebo that color visuals, and what visuals have besides a color.
 
     Args:
         robot: The source.
