@@ -165,7 +165,7 @@ def _is_dropped(row: Setting, shown: Settings) -> bool:
 
 
 def report_looks(robot: Robot, written: Written) -> None:
-    """Report scripts of Gazebo that color visuals, and what visuals have besides a color.
+    """Report scripts of Gazebo that color visuals, and what of visuals is not a color or image.
 
     Args:
         robot: The source.
