@@ -30,7 +30,7 @@ OPEN = (
         "mjcf.compiled",
         "mjcf.copied",
         "mjcf.declared_losses",
-        "mjcf.additions",
+        "common.additions",
         "mjcf.verify",
     ),
     "usd.declared_losses",

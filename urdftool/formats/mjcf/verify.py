@@ -26,10 +26,10 @@ from ...model.load import read_again
 from ...model.materials import resolve_materials
 from ...model.mechanism import Closure
 from ...model.world import add_world
+from ..common.additions import announce_additions
 from ..common.losses import DeclaredLosses, name_links
 from ..reading import Reading
 from ..written import Written
-from .additions import announce_additions
 from .compiled import Compiled, compile_all, copy_export
 from .copied import has_copied_home, list_copied, list_uncopied
 from .declared_losses import EFFORT, EXCUSES, INERTIA, TORN
@@ -349,7 +349,9 @@ def _compare_dynamics(
     declared: DeclaredLosses,
 ) -> Iterator[Check]:
     """Compare mass matrix and gravity of the joints, with a fixed root of a rotation, 3 × 3."""
-    inertia = Check("mass matrix", "over all joints, with a fixed root", compiled.tensor_rounding)
+    inertia = Check(
+        "mass matrix", "of the links, without armature, fixed root", compiled.tensor_rounding
+    )
     gravity = Check("gravity", "force at every joint that holds the robot", FORCE)
     inertia.is_empty = gravity.is_empty = True
     welded = _get_welded(mechanics, compiled)

@@ -20,6 +20,7 @@ from ...model.load import read_again
 from ...model.materials import resolve_materials
 from ...model.world import add_world
 from ...source.document import read_file
+from ..common.additions import announce_additions
 from ..common.directory import write_export
 from ..common.losses import DeclaredLosses, name_links
 from ..step_read_back import check_read_back
@@ -53,7 +54,8 @@ def verify_copy(
         newton: Whether to import the copy with Newton; None if it is installed.
     """
     assert written.planned is not None
-    expected = make_expected(add_world(read_again(robot))[0], written.planned)
+    source = add_world(read_again(robot))[0]
+    expected = make_expected(source, written.planned)
     with TemporaryDirectory(prefix="urdftool-") as folder:
         place = Path(folder) / "copy"
         write_export(place, written, single=False)
@@ -62,6 +64,7 @@ def verify_copy(
         losses = list(name_links(expected, written.losses))
         claims = Claims(losses, written.renamed, EXCUSES, reading.losses, UNSEEN)
         checks = prove(expected, reading.robot, claims, rows=choose_rows())
+        announce_additions(checks, source, written.planned)
         checks.append(compare_home(path, expected, written.planned.configurations[0].positions))
         checks.append(check_read_back(reading.robot, read_start(path), timestep, losses))
         if is_installed("newton") if newton is None else newton:

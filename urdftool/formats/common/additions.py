@@ -24,12 +24,16 @@ def announce_additions(checks: Sequence[Check], source: Robot, planned: Robot) -
         planned: The robot that the export writes.
     """
     rows = {
+        "limits": _list_added_efforts(source, planned),
         "joint physics": (
             *list_added_dynamics(source, planned),
             *_list_added_stops(source, planned),
         ),
         "sensors": _list_added_sensors(source, planned),
         "surface": _list_added_contact(source, planned),
+        "actuators": list_added_actuators(source, planned),
+        "contact pairs": _list_added_exclusions(source, planned),
+        "configurations": _list_added_configurations(source, planned),
     }
     for check in checks:
         check.announced += rows.get(check.name, ())
@@ -64,6 +68,51 @@ def _list_added_stops(source: Robot, planned: Robot) -> Iterator[str]:
         yield f"stiffness of stops added at {len(added)} of {len(planned.joints)} joints"
 
 
+def _list_added_efforts(source: Robot, planned: Robot) -> Iterator[str]:
+    known = {
+        joint.name for joint in source.joints if joint.limit and joint.limit.effort is not None
+    }
+    added = [
+        joint.name
+        for joint in planned.joints
+        if joint.name in source.joint.keys() - known
+        and joint.limit is not None
+        and joint.limit.effort is not None
+    ]
+    if added:
+        yield f"effort limits added: {len(added)} ({_name_some(added)})"
+
+
+def list_added_actuators(source: Robot, planned: Robot) -> Iterator[str]:
+    """Yield a text with the actuators of joints for which a description gives no gains."""
+    known = {actuator.joint for actuator in source.joint_actuators}
+    added = [a.joint for a in planned.joint_actuators if a.joint not in known]
+    if added:
+        yield f"added: {len(added)} with kinds and gains of the export ({_name_some(added)})"
+
+
+def _list_added_exclusions(source: Robot, planned: Robot) -> Iterator[str]:
+    known = {frozenset((pair.link, pair.other)) for pair in source.exclusions}
+    added = [
+        f"{pair.link} and {pair.other}"
+        for pair in planned.exclusions
+        if frozenset((pair.link, pair.other)) not in known
+    ]
+    if added:
+        yield f"added: {len(added)} ({_name_some(added)})"
+
+
+def _list_added_configurations(source: Robot, planned: Robot) -> Iterator[str]:
+    known = {configuration.name for configuration in source.configurations}
+    added = [one.name for one in planned.configurations if one.name not in known]
+    if added:
+        yield f"added: {len(added)} ({_name_some(added)})"
+
+
+def _name_some(names: Sequence[str]) -> str:
+    return f"'{names[0]}'" + (" and so on" if len(names) > 1 else "")
+
+
 def _list_added_sensors(source: Robot, planned: Robot) -> Iterator[str]:
     known = {sensor.name for sensor in source.mounted_sensors}
     added = [
@@ -72,7 +121,7 @@ def _list_added_sensors(source: Robot, planned: Robot) -> Iterator[str]:
         if not any(sensor.name == name or sensor.name.startswith(f"{name}_") for name in known)
     ]  # one sensor of the source may be several: imu_gyro, imu_accelerometer
     if added:
-        yield f"added: {len(added)} ('{added[0]}' and so on)"
+        yield f"added: {len(added)} ({_name_some(added)})"
 
 
 def _list_added_contact(source: Robot, planned: Robot) -> Iterator[str]:
