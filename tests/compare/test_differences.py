@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.graph.robots import robot
+from urdftool.compare.compare import compare_robots
 from urdftool.compare.difference import THERE
 from urdftool.compare.differences import compare
 from urdftool.compare.settings import measure_content
@@ -41,7 +42,6 @@ SAME = {
         of(joint=f'<origin rpy="{0.1 + math.pi} {math.pi - 0.2} {0.3 + math.pi}"/>'),
     ),
     "an origin that says nothing": (of(), of(joint='<origin xyz="0 0 0"/>')),
-    "a longer axis": (of(joint='<axis xyz="0 0 1"/>'), of(joint='<axis xyz="0 0 2"/>')),
     "the axis there is without one": (of(), of(joint='<axis xyz="1 0 0"/>')),
     "the axis of a fixed joint": (of(kind="fixed"), of(joint='<axis xyz="0 1 0"/>', kind="fixed")),
     "limits that readers take for zero": (
@@ -259,3 +259,28 @@ def test_a_value_that_is_gone_is_at_its_place_in_the_first_file():
                if d.kind == "link")  # fmt: skip
     assert (gone.what, gone.values[1], gone.places[1].path) == ("existence", None, "")
     assert gone.place == gone.places[0]
+
+
+AXIS = """<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">
+<parent link="a"/><child link="b"/><axis xyz="{}"/></joint></robot>"""
+
+
+@pytest.mark.parametrize(
+    ("one", "two", "whats", "is_equal"),
+    [
+        ("0 0 0", "0 0 1", ["axis"], False),
+        ("0 0 1", "0 0 1e-20", ["axis"], False),
+        ("0 0 0", "0 0 1e-20", [], True),
+        ("0 0 1", "0 0 7", ["axis length"], True),  # verify compares directions
+        ("0.577 0.577 0.577", "1 1 1", ["axis length"], True),
+        ("0.577 0.577 0.577", "0.57735 0.57735 0.57735", [], True),
+    ],
+)
+def test_axes_without_direction_and_of_another_length(tmp_path, one, two, whats, is_equal):
+    robots = []
+    for name, axis in (("one", one), ("two", two)):
+        (tmp_path / f"{name}.urdf").write_text(AXIS.format(axis))
+        robots.append(load(tmp_path / f"{name}.urdf"))
+    assert [change.what for change in compare(*robots)] == whats
+    rows = {difference.row for difference in compare_robots(*robots).differences}
+    assert ("axes" not in rows) is is_equal

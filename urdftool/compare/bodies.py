@@ -160,11 +160,18 @@ def find_locked_joints(robot: Robot) -> set[str]:
     }
 
 
+LEAST_AXIS = 1e-15
+"""Length below which an axis has no direction; MuJoCo's mjMINVAL."""
+
+
 def compute_axis(joint: Joint) -> Array:
-    """Return the unit axis of a joint in the joint frame; zeros if it has none."""
+    """Return the unit axis of a joint in the joint frame; zeros if it has none.
+
+    MuJoCo rejects an axis that is shorter than 1e-15 (mjMINVAL).
+    """
     axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
     length = float(np.linalg.norm(axis))
-    return axis / length if length else axis
+    return axis / length if length >= LEAST_AXIS else np.zeros(3)
 
 
 def _compute_locked_motion(joint: Joint) -> Array:

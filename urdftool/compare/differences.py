@@ -6,12 +6,14 @@ that robots that form no tree can be compared, and a body with other frames is n
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Container, Iterator, Mapping
 
 from ..errors import ModelError
 from ..model.angles import restore_angle
 from ..model.elements import Joint, Link, Robot, Vector
 from ..model.pose import compute_norm, make_restored_pose
+from .bodies import LEAST_AXIS, compute_axis
 from .compare import compare_robots
 from .difference import EXISTENCE, RENAMED, Difference, describe_change
 from .extensions import compare_extensions
@@ -27,7 +29,7 @@ from .tolerance import TOLERANCE, are_close, close, format_motion, is_same_pose
 def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Difference]:
     """Yield the differences from one robot to another: links, joints, then extensions.
 
-    Order, comments and formatting are ignored, and so are equivalent notations of poses, axes and
+    Order, comments and formatting are ignored, and so are equivalent notations of poses and
     tensors.
 
     Args:
@@ -194,7 +196,8 @@ _OF_THE_WHOLE = frozenset(("base", "world", "looks", "link flags"))
 _OF_ALL_FORMATS = ("world",)
 """Those that are compared in two formats."""
 
-_X: Vector = (1.0, 0.0, 0.0)
+_AXIS_LENGTH = 1e-2
+"""Relative difference of lengths of axes above rounding, as of 0.577 0.577 0.577; chosen."""
 
 
 def compare_joints(
@@ -226,14 +229,23 @@ def compare_joints(
             opposite = are_close(x, (-y[0], -y[1], -y[2]), max(tolerance, 1e-12))
             note, parts = "opposite direction" if opposite else "", (a.axis or a, b.axis or b)
             yield describe_change("axes", "joint", b.name, "axis", (x, y), parts, note=note)
+        elif abs(math.log(_get_axis_length(a) / _get_axis_length(b))) > _AXIS_LENGTH:
+            lengths = _get_axis_length(a), _get_axis_length(b)
+            note, parts = "PyBullet does not normalize it", (a.axis or a, b.axis or b)
+            yield describe_change("axes", "joint", b.name, "axis length", lengths, parts, note=note)
     yield from _compare_values(a, b, tolerance, renamed)
 
 
 def _get_axis(joint: Joint) -> Vector:
     """Return the axis, normalized unless it is zero."""
-    x, y, z = joint.axis.xyz if joint.axis is not None else _X
-    length = compute_norm((x, y, z)) or 1.0
-    return x / length, y / length, z / length
+    x, y, z = compute_axis(joint).tolist()
+    return x, y, z
+
+
+def _get_axis_length(joint: Joint) -> float:
+    """Return the length of the axis as it is written; 1 if it has no direction."""
+    length = compute_norm(joint.axis.xyz) if joint.axis is not None else 1.0
+    return length if length >= LEAST_AXIS else 1.0
 
 
 def _restore(value: float | None) -> float | None:

@@ -148,6 +148,9 @@ def _compare_axis(match: JointMatch, comparison: Comparison) -> float:
     angle = math.atan2(float(np.linalg.norm(np.cross(x, y))), abs(float(x @ y)))
     values = format_vector(x), format_vector(y)
     parts = match.one.axis, match.two.axis
+    if np.any(x) != np.any(y):
+        _add(comparison, match, "axes", "axis", values, "", math.inf, "no direction", parts)
+        return sign
     if sign < 0:
         note = "opposite direction: the sign of every position is reversed"
         _add(comparison, match, "axes", "axis", values, "", math.pi, note, parts)
