@@ -25,8 +25,9 @@ import numpy as np
 
 from measure.benchmarks.robots import bullet_robots, example_folder, example_robots
 
-SECONDS, BEYOND, DRIFT, TILT = 2.0, 0.01, 0.02, 3.0
-"""Simulated time [s]; tolerance of limits [rad or m]; motion [m] and tilt [°] of a free base."""
+SECONDS, BEYOND, DRIFT, TILT, SAG = 2.0, 0.01, 0.02, 3.0, 0.05
+"""Simulated time [s]; tolerance of limits [rad or m]; motion [m] and tilt [°] of a free base;
+motion of joints on a fixed base [rad or m]."""
 
 
 @dataclass
@@ -39,6 +40,8 @@ class Outcome:
         is_free: Whether its base is free.
         is_driven: Whether it has a servo.
         faults: Sentences on the stepped export, by step [s].
+        sags: Sentences on joints of a fixed base that do not stay, by step [s]; they are faults
+            only beside ``simulate``, which judges them, too.
         simulated: Codes of the faults that ``simulate`` finds; None if it was not run.
         unsimulated: Why ``simulate`` refuses it.
     """
@@ -48,6 +51,7 @@ class Outcome:
     is_free: bool = False
     is_driven: bool = False
     faults: dict[float, list[str]] = field(default_factory=dict)
+    sags: dict[float, str] = field(default_factory=dict)
     simulated: list[str] | None = None
     unsimulated: str = ""
 
@@ -120,6 +124,8 @@ def _run(mujoco: Any, model: Any, outcome: Outcome) -> Any:
     single = model.jnt_type >= int(mujoco.mjtJoint.mjJNT_SLIDE)
     limited = np.flatnonzero(single & (model.jnt_limited > 0))
     at, (low, high) = model.jnt_qposadr[limited], model.jnt_range[limited].T
+    hinges = model.jnt_qposadr[np.flatnonzero(single)]
+    home = data.qpos[hinges].copy()
     beyond = np.zeros(len(limited))
     for _ in range(round(SECONDS / model.opt.timestep)):  # a reset of the state resets the time
         mujoco.mj_step(model, data)
@@ -129,6 +135,9 @@ def _run(mujoco: Any, model: Any, outcome: Outcome) -> Any:
         beyond = np.maximum(beyond, np.maximum(low - data.qpos[at], data.qpos[at] - high))
     for index in np.flatnonzero(beyond > BEYOND):
         yield f"joint '{model.joint(int(limited[index])).name}' leaves by {beyond[index]:.2g}"
+    moved = float(abs(data.qpos[hinges] - home).max(initial=0.0))
+    if moved > SAG and not len(free):
+        outcome.sags[model.opt.timestep] = f"joints move by up to {moved:.2g}"
     drift = float(np.linalg.norm(data.xpos[base] - start))
     turn = (data.xmat[base].reshape(3, 3) @ upright.T)[2, 2]
     tilt = float(np.degrees(np.arccos(np.clip(turn, -1, 1))))
@@ -159,6 +168,7 @@ def main(arguments: list[str]) -> int:
             kind = "free" if outcome.is_free else "fixed"
             lines = [outcome.refused] if outcome.refused else []
             lines += [f"{s * 1000:g} ms: {text}" for s, of in outcome.faults.items() for text in of]
+            lines += [f"{s * 1000:g} ms: {text}" for s, text in outcome.sags.items()]
             lines += _describe_simulation(outcome)
             print(f"- {outcome.name} ({kind})" + "".join(f"\n    - {x[:160]}" for x in lines))
             sys.stdout.flush()
@@ -179,8 +189,8 @@ def _describe_simulation(outcome: Outcome) -> list[str]:
 
 def agrees(outcome: Outcome) -> bool:
     """Tell whether ``simulate`` and the export at its own step both stand, or both do not."""
-    own = next(iter(outcome.faults.values()), [])
-    return bool(own) == bool(outcome.simulated)
+    timestep, own = next(iter(outcome.faults.items()), (0.0, []))
+    return bool(own or timestep in outcome.sags) == bool(outcome.simulated)
 
 
 def _count(outcome: Outcome, counts: Counter[str]) -> None:

@@ -289,3 +289,8 @@ def test_real_robots(path, free):
     structure = create_structure(made)
     home = choose_home_positions(made, {}, "", None, written).values
     assert decide_base(structure, "auto", None, ShapeBoxes(made), home, written)[0] == free
+
+
+def test_a_body_without_joints_that_is_named_like_a_foot_is_fixed(write):
+    written = export(write("r.urdf", robot(link("left_foot", TRUNK))))
+    assert tree(written).find(".//freejoint") is None

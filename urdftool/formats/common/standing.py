@@ -207,7 +207,7 @@ def _describe_legs(tree: RigidTree) -> str | None:
     chains = {
         body: get_chain(tree, body)
         for body, members in tree.members.items()
-        if body not in inner and _has_word(members, FEET)
+        if body not in inner and body != tree.root.name and _has_word(members, FEET)
     }
     legs = _keep_first(_keep_own(chains))
     return f"it has legs: {_format_listed(list(legs))}" if len(legs) > 1 else None
