@@ -18,8 +18,9 @@ from ...source.packages import find_own_package, shorten_path
 from ...workspace import Workspace, memoize_by_workspace
 from ..fix import Change, FixContext, Proposal, safe, substitute
 from ..mujoco import find_lost_in_mujoco, keeps_visuals, locate_in_mujoco, read_mesh_folder
-from ..rule import ERROR, SAFE, URDF_AND_SDF, WARNING, Problem, rule
+from ..rule import ERROR, INFO, SAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..words import find_nearest
+from .archives import find_packed
 from .changes import change_uses
 from .dropped import is_dropped
 from .found_by_mujoco import report_found_by_mujoco, report_lost, take_found_by_mujoco
@@ -63,6 +64,7 @@ def mesh_not_found(
     finding.
     If ``<mujoco><compiler meshdir="…">`` names a folder, MuJoCo searches the files there. Files
     that exist and that it does not find are a warning, and so are files that only it finds.
+    Files in a zip file next to the description are an info: a program unpacks it at its start.
     Files outside of the project are not read; the summary counts them as not checked.
     """
     missing: dict[Path, list[MeshUse]] = {}
@@ -83,6 +85,17 @@ def mesh_not_found(
     found = take_found_by_mujoco(missing, robot, description)
     if found:
         yield report_found_by_mujoco(robot, found, _select_effects([], found))
+    for archive, paths in find_packed(list(missing), description).items():
+        uses = [use for path in paths for use in missing.pop(path)]
+        yield Problem(
+            uses[0].link,
+            f"{len(paths)} mesh files are only in '{shorten_path(archive)}', first "
+            f"'{uses[0].uri}'; unpack it before the robot is loaded",
+            at=uses[0].mesh.locate_attribute("filename"),
+            data={"archive": str(archive), "count": len(paths)},
+            severity=INFO,
+            effects=_select_effects(lost, uses),
+        )
     folders: dict[Path, list[Path]] = {}
     for path in missing:
         folders.setdefault(_find_missing_folder(description.workspace, path), []).append(path)

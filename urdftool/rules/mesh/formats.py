@@ -229,6 +229,7 @@ _UP = re.compile(rb"<up_axis\s*>\s*(\w+)\s*<")
         "moveit (collision)": "applies neither",
     },
     formats=ANY_FORMAT,
+    pedantic="robots in SDF, because Gazebo applies both",
 )
 def dae_unit_or_axis(
     robot: Robot, description: Description, *, together: float = 3
@@ -258,6 +259,7 @@ def dae_unit_or_axis(
                 f"mesh '{use.uri}'{more}: {what}, which readers apply differently; "
                 "export it in meters",
                 at=use.mesh.locate_attribute("filename"),
+                pedantic=robot.format == "sdf",
                 effects=(
                     f"rviz, pybullet ({case})",
                     *(("moveit (collision)",) if use.uri in colliding else ()),
