@@ -17,6 +17,12 @@ def tree_of(path):
     return ast.parse(path.read_text("utf-8"))
 
 
+@cache
+def walk(tree):
+    """Return the nodes of a module; several tests read them."""
+    return tuple(ast.walk(tree))
+
+
 def for_each_module(test):
     """Run a test for each module as one test, and name the modules for which it fails."""
 
@@ -180,17 +186,22 @@ PLACES = {
 }
 
 
+@cache
 def imports(path):
-    """Yield what a module imports: packages of urdftool, and libraries."""
+    """Return what a module imports: packages of urdftool, and libraries."""
+    return set(_list_imports(path))
+
+
+def _list_imports(path):
     relative = path.relative_to(PACKAGE)
     tree = tree_of(path)
     for_annotations = {
         inner
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
         for inner in ast.walk(node)
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if node in for_annotations:
             continue
         if isinstance(node, ast.ImportFrom) and node.level:
@@ -228,7 +239,7 @@ def test_only_commands_print_and_exit(path):
     relative = path.relative_to(PACKAGE)
     if relative.parts[0] in ("commands", "cli.py", "console.py", "output.py"):
         return
-    for node in ast.walk(tree_of(path)):
+    for node in walk(tree_of(path)):
         if isinstance(node, ast.Call):
             assert ast.unparse(node.func) not in ("print", "sys.exit", "exit", "click.echo"), (
                 relative
@@ -257,7 +268,7 @@ CALLS = {
 @for_each_module
 def test_each_deed_has_its_place(path):
     relative = str(path.relative_to(PACKAGE))
-    for node in ast.walk(tree_of(path)):
+    for node in walk(tree_of(path)):
         if isinstance(node, ast.Call):
             called = ast.unparse(node.func)
             assert relative in CALLS.get(called, (relative,)), f"{relative} calls {called}"
@@ -306,7 +317,7 @@ def local_names(function):
 def state(tree):
     """Yield the module-level names that functions change, and functions that remember objects."""
     names = module_names(tree)
-    for function in ast.walk(tree):
+    for function in walk(tree):
         if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
             continue
         shared = names - local_names(function)
@@ -339,11 +350,11 @@ def patches(tree):
     """Yield the attributes of imported modules that a module sets."""
     imported = {
         alias.asname or alias.name.partition(".")[0]
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Import)
         for alias in node.names
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
             if ast.unparse(node).partition(".")[0] in imported:
                 yield ast.unparse(node)
@@ -438,7 +449,7 @@ _VIEWS = ("workspace", "files", "_workspace", "_get_workspace(robot)", "webbrows
 
 def openings(tree):
     """Yield the calls that open, list or copy files, except by a workspace."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Call):
             continue
         called = ast.unparse(node.func)
@@ -488,7 +499,7 @@ def own_imports(path):
     The version of the package, which its first module defines, is no part of a cycle.
     """
     package = dotted(path) if path.name == "__init__.py" else dotted(path)[:-1]
-    for node in ast.walk(tree_of(path)):
+    for node in walk(tree_of(path)):
         if not isinstance(node, ast.ImportFrom) or not node.level:
             continue
         base = package[: len(package) - node.level + 1]
@@ -648,7 +659,7 @@ BETWEEN_PROCESSES = ("isolated.py", "parallel.py", "cluster.py", "cluster_child.
 
 def forms_with_code(tree):
     """Yield the uses of forms that may run code: imports, and arrays in files of numpy."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Import | ast.ImportFrom):
             names = [getattr(node, "module", None) or "", *(alias.name for alias in node.names)]
             yield from FORMS_WITH_CODE.intersection(name.partition(".")[0] for name in names)
