@@ -45,6 +45,10 @@ _PLACE = 9
 """Decimals of the distance [m] of shapes at one place; chosen, above rounding errors of poses."""
 
 
+_ROUNDED = 1.001
+"""Factor for rounding errors of centers; chosen, far above them."""
+
+
 @dataclass
 class _Comparing:
     """The shapes of two bodies that have no counterpart yet; ``every`` also has repeated ones."""
@@ -98,13 +102,15 @@ def _list_shapes(
 
 def _match_equal(state: _Comparing) -> None:
     """Remove the shapes that are equal in both bodies, the nearest of equal looks first."""
+    tolerance = state.tolerance
+    centers = np.array([shape.pose[:3, 3] for shape in state.two]).reshape(-1, 3)
     pairs = _sort_by_looks(
         state,
         [
             (distance, i, j)
             for i, x in enumerate(state.one)
-            for j, y in enumerate(state.two)
-            if (distance := _measure(state, x, y)) <= state.tolerance
+            for j in _list_near(x, centers, tolerance)
+            if (distance := _measure(state, x, state.two[j])) <= tolerance
         ],
     )
     left, right = set(range(len(state.one))), set(range(len(state.two)))
@@ -124,6 +130,22 @@ def _match_equal(state: _Comparing) -> None:
             _compare_colors(state, *_find_repeated(state, i, j, is_first=i in extra))
     state.one = [state.one[i] for i in sorted(left)]
     state.two = [state.two[j] for j in sorted(right)]
+
+
+def _list_near(shape: Placed, centers: Array, tolerance: float) -> list[int]:
+    """Return the numbers of shapes whose distance from one may be within a tolerance [m].
+
+    Centers of solids are not farther apart than the solids; meshes have any center.
+
+    Args:
+        shape: The shape.
+        centers: Origins of the others [m], n × 3.
+        tolerance: The tolerance [m].
+    """
+    if isinstance(shape.geometry, Mesh):
+        return list(range(len(centers)))
+    apart = abs(centers - shape.pose[:3, 3]).max(axis=1)
+    return [int(j) for j in np.flatnonzero(apart <= tolerance * _ROUNDED)]
 
 
 def _find_repeated(state: _Comparing, i: int, j: int, *, is_first: bool) -> tuple[Placed, Placed]:

@@ -20,13 +20,16 @@ def list_drawn_once(robot: Robot, link: Link) -> list[Visual]:
     at equal poses, one of each color is kept; one without a color only if no other has one.
     """
     kept: list[tuple[Visual, Look]] = []
+    placed: dict[object, list[int]] = {}
     for visual in link.visuals:
         own = _get_own_look(robot, visual.material)
-        looks = {n: look for n, (other, look) in enumerate(kept) if _repeats(visual, other)}
+        near = placed.setdefault(make_pose(visual.origin).translation, [])
+        looks = {n: kept[n][1] for n in near if _repeats(visual, kept[n][0])}
         plain = [number for number, look in looks.items() if look == _PLAIN]
         if plain:
             kept[plain[0]] = kept[plain[0]] if own == _PLAIN else (visual, own)
         elif not looks or (own != _PLAIN and own not in looks.values()):
+            near.append(len(kept))
             kept.append((visual, own))
     return [visual for visual, _ in kept]
 
