@@ -15,6 +15,7 @@ from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose, compute_norm, make_pose
+from ...model.selection import list_below
 from ...model.start import start_positions
 from ..common.base import decide_base
 from ..common.option import Base
@@ -185,3 +186,30 @@ def report_floating(plan: Bodies, written: Written) -> None:
                 name=joint.name,
                 severity=Severity.INFO,
             )
+    _report_robots(plan, written)
+
+
+def _report_robots(plan: Bodies, written: Written) -> None:
+    """Report free bodies next to the robot that carry joints: a stage has one articulation."""
+    tree = plan.robot.tree
+    free = [joint for joint in plan.joints if joint.type == "floating"]
+    others = [
+        joint.child
+        for joint in free
+        if any(
+            is_movable(one)
+            for link in list_below(tree, joint.child)
+            for one in tree.get_child_joints(link)
+        )
+    ]
+    if others:
+        named = f"'{others[0]}'" + f" and {len(others) - 1} more" * (len(others) > 1)
+        written.report_loss(
+            "several-robots",
+            f"joints below {named} belong to no articulation, since a stage describes one robot, "
+            "and Newton refuses such a stage; 'urdftool export urdf --root' writes one of the "
+            "robots",
+            plan.robot.link[others[0]].place,
+            kind="link",
+            name=others[0],
+        )

@@ -28,6 +28,7 @@ from ...model.provenance import Written
 from .read_materials import read_material, read_surface
 from .read_mesh import MeshFolder, Triangles, read_triangles
 from .read_stage import Context, compute_pose
+from .shapes import PLANE_SIZE
 
 Array = npt.NDArray[np.float64]
 
@@ -190,8 +191,20 @@ def _read_geometry(
             return Sphere(written, x), IDENTITY
         return Ellipsoid(written, (x, y, z)), IDENTITY
     if prim.IsA(UsdGeom.Plane):
-        return Plane(written), _TURNS[str(UsdGeom.Plane(prim).GetAxisAttr().Get())]
+        turn = _TURNS[str(UsdGeom.Plane(prim).GetAxisAttr().Get())]
+        return Plane(written, _read_extent(UsdGeom.Plane(prim), scale)), turn
     return _read_round(prim, scale, written)
+
+
+def _read_extent(plane: UsdGeom.Plane, scale: Array) -> tuple[float, float] | None:
+    """Return where a plane with the normal z is drawn [m]; None if it is not limited there."""
+    sides = plane.GetWidthAttr(), plane.GetLengthAttr()
+    if plane.GetAxisAttr().Get() != UsdGeom.Tokens.z or not all(s.IsAuthored() for s in sides):
+        return None
+    width, length = (float(side.Get()) for side in sides)
+    if width == length == PLANE_SIZE:
+        return None
+    return width * float(scale[0]), length * float(scale[1])
 
 
 def _read_round(prim: Usd.Prim, scale: Array, written: Written) -> tuple[Geometry | None, Pose]:
