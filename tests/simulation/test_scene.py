@@ -90,3 +90,31 @@ def test_the_largest_part_of_a_urdf_that_floating_joints_divide(
     part, others = take_robot(api.load(write("r.urdf", f'<robot name="r">{text}</robot>')))
     assert [link.name for link in part.links] == kept
     assert others == left_out
+
+
+PAIR = """<mujoco model="pair"><worldbody><geom name="floor" type="plane" size="5 5 1"/>
+<body name="base" pos="0 0 .1"><freejoint/>
+<geom name="foot" type="box" size=".2 .2 .05" contype="0" conaffinity="0"/></body></worldbody>
+<contact><pair geom1="foot" geom2="floor"/></contact></mujoco>"""
+
+
+@pytest.mark.library("mujoco")
+def test_a_foot_that_touches_by_a_pair_stands(write, urdftool):
+    write("r.xml", PAIR)
+    result = urdftool("simulate", "r.xml", "--engine", "mujoco")
+    assert (result.code, result.out.splitlines()[0]) == (0, "pair: stands")
+
+
+@pytest.mark.parametrize(
+    ("value", "is_named"), [("collide_bitmask>0<", True), ("collide_bitmask>65535<", False)]
+)
+def test_filters_of_contacts_are_named(write, urdftool, value, is_named):
+    pytest.importorskip("pybullet")
+    tag = value.partition(">")[0]
+    text = f"""<sdf version="1.9"><model name="m"><link name="a"><inertial><mass>1</mass><inertia>
+<ixx>.01</ixx><iyy>.01</iyy><izz>.01</izz></inertia></inertial><collision name="c"><geometry><box>
+<size>.4 .4 .1</size></box></geometry><surface><contact><{value}/{tag}></contact></surface>
+</collision></link></model></sdf>"""
+    write("m.sdf", text)
+    result = urdftool("simulate", "m.sdf")
+    assert ("collide_bitmask of a collision of link 'a'" in result.err) is is_named

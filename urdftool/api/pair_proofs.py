@@ -58,7 +58,7 @@ def prove_srdf_pairs(
         return PairProofs()
     packages = robot.source.packages if robot.source is not None else None
     content = read_srdf(path, None, packages)
-    pairs = frozenset(pair.links for pair in content.disabled)
+    pairs = frozenset(pair.links for pair in content.list_disabled(robot.link))
     if not pairs:
         return PairProofs()
     if not (is_installed("fcl") and is_installed("manifold3d")):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -95,7 +96,7 @@ def report_replaced(console: Console, robot: Robot) -> None:
     """
     from ..model.world_settings import list_changed
 
-    names = []
+    names: list[str] = []
     if robot.format != "mjcf":  # whose options are named below
         names = [f"{setting.name} of the world" for setting, _ in list_changed(robot)]
     for section in _REPLACED:
@@ -105,6 +106,7 @@ def report_replaced(console: Console, robot: Robot) -> None:
             names += [f"flag {n}" for e in elements for c in e.children for n in c.attributes]
         elif elements:
             names.append(format_count(len(elements), f"<{section}> element"))
+    names += _list_contact_filters(robot)
     if names:
         console.print_note(
             f"{robot.place}: note: the simulation has its own gravity, solver, motors and ground; "
@@ -112,6 +114,28 @@ def report_replaced(console: Console, robot: Robot) -> None:
         )
 
 
+def _list_contact_filters(robot: Robot) -> Iterator[str]:
+    """Yield the settings by which collisions of a file touch only some others, or nothing."""
+    from ..model.settings import SURFACE, SURFACE_OF_MUJOCO
+
+    for row in (*SURFACE, *SURFACE_OF_MUJOCO):
+        if row.name not in _CONTACT_FILTERS:
+            continue
+        links = [
+            link.name
+            for link in robot.links
+            for shape in link.collisions
+            if row.name in shape.surface and shape.surface[row.name].content != row.default
+        ]
+        if links:
+            more = f" and {len(links) - 1} more" if len(links) > 1 else ""
+            yield f"{row.name} of a collision of link '{links[0]}'{more}"
+
+
+_CONTACT_FILTERS = (
+    *("collide_bitmask", "category_bitmask", "without_contact", "bitmask_without_contact"),
+    *("contype", "conaffinity"),
+)
 _REPLACED = ("option", "actuator", "tendon", "equality", "contact")
 """Sections of MJCF that affect motion and that the simulation replaces or leaves out."""
 

@@ -15,11 +15,11 @@ from ..errors import PackageNotFound, UrdftoolError
 from ..extras import is_installed
 from ..geometry.image_file import open_image
 from ..geometry.load import load_mesh
+from ..geometry.mesh_deviation import measure_deviation
 from ..geometry.reference_patterns import INIT_FROM, MAP, MTLLIB, URI
 from ..mechanics.reference import Array
 from ..model.elements import Geometry, Mesh, Robot
 from ..source.packages import shorten_path
-from .mesh_deviation import measure_deviation
 
 _NAMED = {".obj": MTLLIB, ".mtl": MAP, ".dae": INIT_FROM, ".gltf": URI}
 """Expressions of the names of other files, by the suffix of a file."""

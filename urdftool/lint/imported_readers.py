@@ -51,7 +51,7 @@ _NAMED = re.compile(
     rb"\b(?:%s)\b" % b"|".join(sorted(n.encode() for n in {*_READERS, *_OTHER_ENGINES} - _WORDS))
 )
 _WORD = re.compile(rb"\w+")
-_KEEPS_INERTIA = b"URDF_USE_INERTIA_FROM_FILE"
+_KEEPS_INERTIA = re.compile(rb"URDF_USE_INERTIA_FROM_FILE|\bflags\s*=\s*[1-9]")
 
 _FILES = _FOLDERS = 400
 """Maximum number of files and of folders; of more, none is read. Chosen, no source."""
@@ -129,7 +129,7 @@ def _read_imports(files: Workspace, folder: str) -> frozenset[str] | None:
             text = files.read_bytes(path, _BYTES)
         except (OSError, UrdftoolError):
             return None
-        if _KEEPS_INERTIA in text:
+        if _KEEPS_INERTIA.search(text):
             return None
         imported.update(_IMPORT.findall(text))
         named.update(_NAMED.findall(text))

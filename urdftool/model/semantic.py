@@ -5,6 +5,7 @@ The parts are those of http://wiki.ros.org/srdf; elements of other tags are not 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from ..source.document import Element
@@ -96,8 +97,21 @@ class DisabledPair(Part):
 
 
 @dataclass(slots=True)
+class UncheckedLink(Part):
+    """Link whose collisions are not checked, but with links that ``<enable_collisions>`` names."""
+
+    name: str = ""
+
+
+@dataclass(slots=True)
 class SemanticDescription(Part):
-    """Content of an SRDF, in the order of the file."""
+    """Content of an SRDF, in the order of the file.
+
+    Attributes:
+        disabled: Pairs of ``<disable_collisions>``; ``list_disabled`` has those of links, too.
+        unchecked: Links of ``<disable_default_collisions>``.
+        enabled: Pairs of these links that are checked.
+    """
 
     name: str = ""
     groups: list[Group] = field(default_factory=list)
@@ -106,6 +120,27 @@ class SemanticDescription(Part):
     virtual_joints: list[VirtualJoint] = field(default_factory=list)
     passive_joints: list[PassiveJoint] = field(default_factory=list)
     disabled: list[DisabledPair] = field(default_factory=list)
+    unchecked: list[UncheckedLink] = field(default_factory=list)
+    enabled: list[DisabledPair] = field(default_factory=list)
+
+    def list_disabled(self, links: Iterable[str]) -> list[DisabledPair]:
+        """Return all pairs without collision checks: those that are written, then those of links.
+
+        MoveIt allows contacts of the links without checks, checks the enabled pairs again, and
+        allows the disabled pairs last.
+
+        Args:
+            links: Names of the links of the robot.
+        """
+        known = {pair.links for pair in (*self.disabled, *self.enabled)}
+        pairs = list(self.disabled)
+        for one in self.unchecked:
+            for other in links:
+                ends = frozenset((one.name, other))
+                if len(ends) == 2 and ends not in known:
+                    known.add(ends)
+                    pairs.append(DisabledPair(one.provenance, one.name, other))
+        return pairs
 
 
 def read_semantic(root: Element) -> SemanticDescription:
@@ -119,6 +154,11 @@ def read_semantic(root: Element) -> SemanticDescription:
         [_read_virtual_joint(child) for child in root.list_children("virtual_joint")],
         [PassiveJoint(child, _get(child, "name")) for child in root.list_children("passive_joint")],
         [_read_pair(child) for child in root.list_children("disable_collisions")],
+        [
+            UncheckedLink(child, _get(child, "link"))
+            for child in root.list_children("disable_default_collisions")
+        ],
+        [_read_pair(child) for child in root.list_children("enable_collisions")],
     )
 
 

@@ -49,7 +49,7 @@ def find_disabled_contacts(
         MissingDependency: python-fcl is not installed.
     """
     content = read_srdf_of(robot, path, arguments)
-    options = replace(options or Options(), only=_list_unintended(content))
+    options = replace(options or Options(), only=_list_unintended(robot, content))
     verdicts = decide(robot, options, progress)
     return list_disabled_contacts(judge(content, robot, verdicts))
 
@@ -72,5 +72,6 @@ def read_srdf_of(robot: Robot, path: str | Path, arguments: dict[str, str]) -> S
     return content
 
 
-def _list_unintended(content: SemanticDescription) -> frozenset[frozenset[str]]:
-    return frozenset(pair.links for pair in content.disabled if pair.reason not in INTENDED)
+def _list_unintended(robot: Robot, content: SemanticDescription) -> frozenset[frozenset[str]]:
+    pairs = content.list_disabled(robot.link)
+    return frozenset(pair.links for pair in pairs if pair.reason not in INTENDED)

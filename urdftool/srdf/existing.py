@@ -67,6 +67,7 @@ def check_robot(robot: Robot, content: SemanticDescription) -> None:
         ModelError: It names links, and the robot has none of them.
     """
     named = {name for pair in content.disabled for name in pair.links}
+    named |= {link.name for link in content.unchecked}
     if named and not named & set(robot.link):
         raise ModelError(
             f"the SRDF is of another robot ('{content.name}'): '{robot.name}' has none of the "
@@ -82,7 +83,7 @@ def judge(content: SemanticDescription, robot: Robot, verdicts: Verdicts) -> Ite
     """
     known = {verdict.links: verdict for verdict in verdicts.pairs}
     seen: set[frozenset[str]] = set()
-    for pair in content.disabled:
+    for pair in content.list_disabled(robot.link):
         if any(name not in robot.link for name in pair.links):
             yield Judgement(UNKNOWN, pair)
         elif pair.links in seen:

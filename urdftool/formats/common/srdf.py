@@ -46,7 +46,7 @@ def read_srdf(path: Path, robot: Robot, written: Written, packages: Packages | N
         )
     content = read_semantic(root)
     disabled = []
-    for pair in content.disabled:
+    for pair in content.list_disabled(robot.link):
         unknown = [name for name in (pair.link1, pair.link2) if name not in robot.link]
         if unknown:
             written.report_loss(

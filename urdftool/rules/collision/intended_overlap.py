@@ -139,7 +139,7 @@ def find_disabled_pairs(robot: Robot, description: Description) -> set[frozenset
         documents = get_srdf_documents(robot, description)
         documents = documents or get_documents_of_folder(robot, description)
         contents = [read_semantic(one.root) for one in documents]
-        return {pair.links for content in contents for pair in content.disabled}
+        return {pair.links for content in contents for pair in content.list_disabled(robot.link)}
 
     return robot.memo.get("disabled pairs of the SRDF", read)
 

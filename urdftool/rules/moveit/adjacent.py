@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
+from ...model.semantic import read_semantic
 from ...source.description import Description
 from ...source.document import Document, Element
 from ..collision.convex_bodies import get_convex_bodies
@@ -39,11 +40,8 @@ def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterat
     the hulls is an info.
     """
     for document in get_srdf_documents(robot, description):
-        disabled = {
-            frozenset((element.get("link1", ""), element.get("link2", "")))
-            for element in document.root.walk()
-            if element.tag == "disable_collisions"
-        }
+        content = read_semantic(document.root)
+        disabled = {pair.links for pair in content.list_disabled(robot.link)}
         known = get_convex_bodies(robot)
 
         def may_touch(one: Link, other: Link) -> bool:

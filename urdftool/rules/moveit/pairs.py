@@ -40,7 +40,9 @@ def _judge_disabled(robot: Robot, description: Description) -> list[Judgement]:
 
     def compute() -> list[Judgement]:
         contents = [read_semantic(d.root) for d in get_srdf_documents(robot, description)]
-        pairs = frozenset(pair.links for content in contents for pair in content.disabled)
+        pairs = frozenset(
+            pair.links for content in contents for pair in content.list_disabled(robot.link)
+        )
         if not pairs:
             return []
         boxes = _choose_boxes(len(pairs))
@@ -163,7 +165,7 @@ def pair_never_touches(robot: Robot, description: Description) -> Iterator[Probl
 
     for document in get_srdf_documents(robot, description):
         content = read_semantic(document.root)
-        disabled = {pair.links for pair in content.disabled}
+        disabled = {pair.links for pair in content.list_disabled(robot.link)}
         verdicts = decide(robot, Options(boxes=BOXES, jobs=1, search=False))
         names = [
             f"'{verdict.link1}' and '{verdict.link2}'"

@@ -14,6 +14,7 @@ from ...settings import Settings
 from ..base import ExportMjcf
 
 SCENE = "scene.xml"
+_CONTACT_BITS = ("contype", "conaffinity")
 PLANE = "plane of the simulation"
 MOTOR = "motor of "
 """What the motor of each held joint is called, before the joint's name."""
@@ -109,4 +110,9 @@ def _remove_with_payload(link: Link, payload: float) -> Link:
             if inertial is None or not link.mass
             else replace(inertial, mass=mass)
         )
-    return replace(link, visuals=[], inertial=inertial)
+    # all collisions of the robot touch the plane: one whose contacts <pair> lists has contype 0
+    collisions = [
+        replace(one, surface={n: v for n, v in one.surface.items() if n not in _CONTACT_BITS})
+        for one in link.collisions
+    ]
+    return replace(link, visuals=[], collisions=collisions, inertial=inertial)
