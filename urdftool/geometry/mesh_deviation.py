@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..mechanics.reference import Array
+from .mesh import Array
 
 _SAMPLES = 64
 """Number of points of each mesh that are compared, if its triangles differ; chosen, no source."""
