@@ -154,7 +154,7 @@ PLACES = {
     ),
     "xacro": (),  # source/xacro_copy.py loads a copy
     "lxml": ("formats/",),
-    "trimesh": ("geometry/", "compare/mesh_deviation.py"),
+    "trimesh": ("geometry/",),
     "yourdfpy": ("bundle/yourdfpy_reader.py",),
     "scipy": ("geometry/", "inertia/", "collision/", "bundle/surface_distance.py"),
     "manifold3d": ("geometry/hull.py", "simulation/solids.py"),

@@ -199,3 +199,21 @@ def test_visuals_at_one_place_are_matched_by_color(tmp_path):
     assert get_verdicts(urdftool.verify(path, model))["colors"] == "equal"
     model.write_text(model.read_text().replace("0.5 0.5 0.5", "0.5 0.5 0.9"))
     assert get_verdicts(urdftool.verify(path, model))["colors"] == "differs"
+
+
+SITE = """<mujoco><worldbody><site name="ws" euler="0 0 {}"/><geom name="w" size="1 1 1" type="box"
+ pos="0 0 -{}"/><body name="b"><freejoint/><geom name="g" size=".1"/><site name="bs"/></body>
+</worldbody><contact><pair geom1="g" geom2="w"/></contact><actuator>
+<general name="a" site="bs" refsite="ws" gear="1 0 0 0 0 0"/></actuator></mujoco>"""
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.parametrize("values", [("0", "2"), ("90", "2"), ("0", "3")])
+def test_sites_and_geoms_of_the_world_that_others_name(write, urdftool, values):
+    write("one.xml", SITE.format("0", "2"))
+    write("two.xml", SITE.format(*values))
+    result = urdftool("verify", "one.xml", "two.xml")
+    is_equal = values == ("0", "2")
+    assert ("equal in every compared property" in result.err) is is_equal
+    assert ("contact pairs (1 part not read: w" in result.out) is not is_equal
+    assert ("sensors (1 part not read: ws" in result.out) is not is_equal

@@ -65,11 +65,14 @@ def add_extras(context: Context, robot: Robot) -> None:
 
 def _add_frames(context: Context, robot: Robot) -> None:
     for row in context.list_rows("site"):
-        if context.has_link(row):
-            written = context.get_place(row)
-            origin = get_origin_at(context.compute_pose_in_link(row), written)
-            link = context.links[row["bodyid"]]
-            robot.frames.append(Frame(written, row["name"], link, "site", origin))
+        written = context.get_place(row)
+        if not context.has_link(row):
+            text = "sites in the world are not read"
+            context.losses.add("world-site", text, row["name"], written.place, Severity.INFO)
+            continue
+        origin = get_origin_at(context.compute_pose_in_link(row), written)
+        link = context.links[row["bodyid"]]
+        robot.frames.append(Frame(written, row["name"], link, "site", origin))
     for row in context.list_rows("camera"):
         written = context.get_place(row)
         if row["mode"] != 0:

@@ -41,8 +41,10 @@ def add_shapes(context: Context, robot: Robot) -> None:
     for row in context.list_rows("geom"):
         written = context.get_place(row)
         if not context.has_link(row):
-            text = "geoms of the world are scenery"
-            context.losses.add("scenery", text, row["name"], written.place, Severity.INFO)
+            text, code = "geoms of the world are scenery", "scenery"
+            if row["paired"]:
+                text, code = "geoms of the world that <pair> names are not read", "paired-scenery"
+            context.losses.add(code, text, row["name"], written.place, Severity.INFO)
             continue
         link = robot.link[context.links[row["bodyid"]]]
         geometry, frame = _read_geometry(context, row, written)
