@@ -31,7 +31,8 @@ class Kept(Cache):
     def get_key(self, *question):
         return ""
     def write(self, key, report, read):
-        self.read = {q for part in (read, *read.shared) for q in part.stamps}
+        asked = [question for part in (read, *read.shared) for question in part.stamps]
+        self.read = {("list" if kind == "code" else kind, path) for kind, path in asked}
 
 sys.addaudithook(hook)
 check = run._check_variant

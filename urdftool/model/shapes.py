@@ -12,6 +12,9 @@ from .part import ZERO, Part, Vector
 if TYPE_CHECKING:
     from ..source.document import Element
 
+PLANE_SIZE = 100.0
+"""Edge [m] of an unlimited plane where it is drawn, as in USD. Chosen, no source."""
+
 
 @dataclass(slots=True)
 class Box(Part):

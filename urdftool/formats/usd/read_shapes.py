@@ -25,10 +25,10 @@ from ...model.elements import (
 )
 from ...model.pose import IDENTITY, Pose, get_origin_at
 from ...model.provenance import Written
+from ...model.shapes import PLANE_SIZE
 from .read_materials import read_material, read_surface
 from .read_mesh import MeshFolder, Triangles, read_triangles
 from .read_stage import Context, compute_pose
-from .shapes import PLANE_SIZE
 
 Array = npt.NDArray[np.float64]
 

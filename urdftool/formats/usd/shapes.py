@@ -24,7 +24,7 @@ from ...model.elements import (
     Visual,
 )
 from ...model.pose import make_pose
-from ...model.shapes import get_shape_name
+from ...model.shapes import PLANE_SIZE, get_shape_name
 from ..common.naming import UniqueNames
 from ..written import Written
 from .links import LinkWriter
@@ -33,9 +33,6 @@ from .meshes import Meshes, approximate, make_collider, write_triangles
 from .names import make_identifier
 from .stage import GEOMETRY, PHYSICS, set_pose
 from .surfaces import SurfaceWriter
-
-PLANE_SIZE = 100.0
-"""Edge [m] of an unlimited plane where it is drawn. Chosen, no source."""
 
 
 @dataclass(frozen=True)
