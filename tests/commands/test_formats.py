@@ -67,10 +67,11 @@ def test_diff_across_formats(urdftool):
     result = urdftool("diff", ARM.with_suffix(".urdf"), ARM, "--format", "json")
     assert result.code == 1
     every = json.loads(result.out)["changes"]
-    names = {"shoulder", "elbow"}  # the export keeps their limits of velocity in <custom>
-    joints = [change["element"] for change in every if change["element"]["kind"] == "joint"]
-    assert names.isdisjoint(element["name"] for element in joints)
-    assert len(joints) == 2
+    joints = [change for change in every if change["element"]["kind"] == "joint"]
+    named = sorted(change["element"]["name"] for change in joints)
+    # the export keeps limits of velocity in <custom>, and adds a stop beside a servo
+    assert named == ["anchor", "sensor_plate_fixed", "shoulder"]
+    assert "limit solref" in str(joints)
 
 
 @BOTH

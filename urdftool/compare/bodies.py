@@ -170,8 +170,12 @@ def compute_axis(joint: Joint) -> Array:
     MuJoCo rejects an axis that is shorter than 1e-15 (mjMINVAL).
     """
     axis = np.array(joint.axis.xyz if joint.axis is not None else (1.0, 0.0, 0.0))
-    length = float(np.linalg.norm(axis))
-    return axis / length if length >= LEAST_AXIS else np.zeros(3)
+    largest = float(np.abs(axis).max())  # the square of a large number is infinite
+    if not LEAST_AXIS <= largest < np.inf:
+        return np.zeros(3)
+    axis = axis / largest
+    unit: Array = axis / np.linalg.norm(axis)
+    return unit
 
 
 def _compute_locked_motion(joint: Joint) -> Array:

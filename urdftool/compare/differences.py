@@ -6,7 +6,6 @@ that robots that form no tree can be compared, and a body with other frames is n
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Container, Iterator, Mapping
 
 from ..errors import ModelError
@@ -60,6 +59,8 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Dif
         new = b.joint.get(joints.get(name, name))
         if new is not None:
             yield from compare_joints(joint, new, tolerance, renamed)
+            if a.format == b.format:  # a writer of another format may normalize it
+                yield from _compare_axis_length(joint, new)
     yield from compare_extensions(a, b, tolerance, renamed)
     yield from compare_written_settings(a, b, tolerance, renamed)
     yield from compare_mechanisms(a, b, tolerance, renamed)
@@ -229,11 +230,14 @@ def compare_joints(
             opposite = are_close(x, (-y[0], -y[1], -y[2]), max(tolerance, 1e-12))
             note, parts = "opposite direction" if opposite else "", (a.axis or a, b.axis or b)
             yield describe_change("axes", "joint", b.name, "axis", (x, y), parts, note=note)
-        elif abs(math.log(_get_axis_length(a) / _get_axis_length(b))) > _AXIS_LENGTH:
-            lengths = _get_axis_length(a), _get_axis_length(b)
-            note, parts = "PyBullet does not normalize it", (a.axis or a, b.axis or b)
-            yield describe_change("axes", "joint", b.name, "axis length", lengths, parts, note=note)
     yield from _compare_values(a, b, tolerance, renamed)
+
+
+def _compare_axis_length(a: Joint, b: Joint) -> Iterator[Difference]:
+    lengths = _get_axis_length(a), _get_axis_length(b)
+    if a.has_direction and b.has_direction and not close(*lengths, _AXIS_LENGTH):
+        note, parts = "PyBullet does not normalize it", (a.axis or a, b.axis or b)
+        yield describe_change("axes", "joint", b.name, "axis length", lengths, parts, note=note)
 
 
 def _get_axis(joint: Joint) -> Vector:
