@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -157,6 +158,23 @@ def test_hover(client, macro, line, character, expected):
     found = client.ask_at("textDocument/hover", macro, line, character)
     for text in expected:
         assert text in found["contents"]["value"]
+
+
+def test_hover_on_an_argument_of_a_call(client, folder):
+    path = folder / "three.urdf.xacro"
+    text = MAIN.replace('"two"', '"three"').replace('y="0.5"', 'y="${2 * gap}"')
+    text = text.replace("  <link", '  <xacro:property name="gap" value="${1 / 4}"/><link')
+    path.write_text(text)
+    client.open(path)
+    for _ in range(600):  # until it is checked
+        found = client.ask_at("textDocument/hover", path, 3, 35)
+        if found:
+            break
+        time.sleep(0.1)
+    assert "`y`:\n\n- `0.5`" in found["contents"]["value"]
+    assert "no robot" not in str(client.ask_at("textDocument/hover", path, 2, 40))
+    client.notify("textDocument/didClose", textDocument={"uri": path.as_uri()})
+    path.unlink()
 
 
 def test_outline_is_the_kinematic_tree(client, macro, folder):

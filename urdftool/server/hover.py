@@ -45,7 +45,17 @@ def _describe(knowledge: Knowledge, path: str, element: Element, name: str) -> I
     written = element.get(name) or "" if name else ""
     instances = _list_instances(knowledge, path, element)
     if name and ("${" in written or "$(" in written):
-        yield from _describe_values(element, name, instances)
+        title = f"`{name}` in {len(instances)} expansion{'s' * (len(instances) != 1)}"
+        if element.tag.startswith("xacro:"):
+            title = f"`{name}`"
+            calls = [arguments for _, arguments in _list_calls(knowledge, path, element)]
+            values = [(dict(arguments)[name], "") for arguments in calls if name in dict(arguments)]
+        else:
+            values = [(made.get(name) or "", _format_calls(made.calls)) for made, _ in instances]
+            if not values:
+                yield f"`{name}`: no robot that was read expands this element"
+        if values:
+            yield _describe_values(title, values)
     if not name and element.tag.startswith("xacro:"):
         yield from _describe_call(knowledge, path, element)
     yield from _describe_objects(instances, element, name)
@@ -64,26 +74,19 @@ def _list_instances(
     return found
 
 
-def _describe_values(
-    element: Element, name: str, instances: list[tuple[Element, Robot]]
-) -> Iterator[str]:
-    """Yield the values of an attribute, each with the calls that give it."""
+def _describe_values(title: str, found: list[tuple[str, str]]) -> str:
+    """Return the values of an attribute below a title, each with the calls that give it."""
     values: dict[str, list[str]] = {}
-    for made, _ in instances:
-        calls = values.setdefault(made.get(name, "") or "", [])
-        calls.append(_format_calls(made.calls))
-    if not values:
-        yield f"`{name}`: no robot that was read expands this element"
-        return
+    for value, calls in found:
+        values.setdefault(value, []).append(calls)
     lines = []
-    for value, calls in list(values.items())[:MOST_VALUES]:
-        shown = [call for call in dict.fromkeys(calls) if call]
+    for value, all_calls in list(values.items())[:MOST_VALUES]:
+        shown = [call for call in dict.fromkeys(all_calls) if call]
         more = f" and {len(shown) - 2} more" if len(shown) > 2 else ""
         lines.append(f"- `{value}`" + (f": {', '.join(shown[:2])}{more}" if shown else ""))
     if len(values) > MOST_VALUES:
         lines.append(f"- … {len(values) - MOST_VALUES} more values")
-    count = len(instances)
-    yield f"`{name}` in {count} expansion{'s' * (count != 1)}:\n\n" + "\n".join(lines)
+    return f"{title}:\n\n" + "\n".join(lines)
 
 
 def _format_calls(calls: tuple[Call, ...]) -> str:
@@ -95,17 +98,23 @@ def _format_place(call: Call) -> str:
     return f"{os.path.basename(call.file.path)}:{call.line}"
 
 
-def _describe_call(knowledge: Knowledge, path: str, element: Element) -> Iterator[str]:
-    """Yield the arguments that a call of a macro passes, in each of its expansions."""
-    seen: dict[tuple[tuple[str, str], ...], None] = {}
-    macro = ""
+def _list_calls(
+    knowledge: Knowledge, path: str, element: Element
+) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
+    """Return macro and arguments of each expansion of a call in the source."""
+    found: dict[Call, None] = {}
     for description, _ in knowledge.list_descriptions(path):
         for made in description.document.root.walk():
             for call in made.calls:
                 if call.start == element.start and make_path(call.file.path) == path and call.macro:
-                    macro = call.macro
-                    seen[call.arguments] = None
-    for arguments in list(seen)[:MOST_VALUES]:
+                    found[call] = None
+    return [(call.macro, call.arguments) for call in found]
+
+
+def _describe_call(knowledge: Knowledge, path: str, element: Element) -> Iterator[str]:
+    """Yield the arguments that a call of a macro passes, in each of its expansions."""
+    calls = dict.fromkeys(_list_calls(knowledge, path, element))
+    for macro, arguments in list(calls)[:MOST_VALUES]:
         values = "\n".join(f"- {key} = `{value}`" for key, value in arguments)
         yield f"macro **{macro}**\n\n{values}" if values else f"macro **{macro}**"
 

@@ -115,11 +115,26 @@ class Knowledge:
     def set_document(self, path: str, text: str | None) -> None:
         """Store the text of an open document; None for one that was closed."""
         key = os.path.realpath(path)
+        is_new = text is not None and key not in self._texts and self._is_unknown(key)
         if text is None:
             self._texts.pop(key, None)
         else:
             self._texts[key] = _encode(text)
-        self._forget()
+        if is_new:
+            self.refresh()
+        else:
+            self._forget()
+
+    def _is_unknown(self, real: str) -> bool:
+        """Tell whether the robots of a folder were found, and a file is none of their files.
+
+        It may have been written since then: not every editor reports new files.
+        """
+        found = self._repositories.values()
+        return bool(found) and not any(
+            real in one.robots or any(real in one.list_files(robot) for robot in one.robots)
+            for one in found
+        )
 
     def refresh(self) -> None:
         """Forget what was read from the disk, which has changed."""
