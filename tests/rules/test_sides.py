@@ -205,3 +205,19 @@ def test_two_equal_arms_that_face_each_other_are_copies(write, flip):
     found = check(path, select=["axis-against-others"])
     assert get_sides(load(path)).normal is not None
     assert len(found) == flip
+
+
+def test_slides_without_a_range_are_not_compared(tmp_path):
+    pytest.importorskip("mujoco")
+    sides = "".join(
+        f'<body name="{side}_arm" pos="0 {y} 0"><joint name="{side}_turn" axis="0 1 0" '
+        f'range="-1 1"/><geom size=".1 .1 .1" type="box"/><body name="{side}_hand" pos="0 {y} 1">'
+        f'<joint name="{side}_slide" type="slide" axis="0 0 1" actuatorfrcrange="-5 5"/>'
+        '<geom size=".1 .1 .1" type="box"/></body></body>'
+        for side, y in (("left", 1), ("right", -1))
+    )
+    path = tmp_path / "m.xml"
+    body = f'<body name="base"><geom size=".1 .1 .1" type="box"/>{sides}</body>'
+    path.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
+    found = check(path, select=["limits-not-mirrored", "mimic-limits-inconsistent"])
+    assert [finding.message for finding in found] == []

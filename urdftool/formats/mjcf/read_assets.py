@@ -89,16 +89,25 @@ class AssetNames:
         if attributes.get("strippath") in ("true", "false"):
             self._strips = attributes.pop("strippath") == "true"
 
-    def add_folders(self, first: int) -> None:
+    def add_folders(self, first: int, main: str, workspace: Workspace) -> None:
         """Complete the paths of files; all settings have been seen.
+
+        A file that is not there is looked for beside the included file that names it, as MuJoCo 4.0
+        does.
 
         Args:
             first: Number of files of other models, which precede those of this model.
+            main: Folder of the main file.
+            workspace: Access to files.
         """
         for name, asset in list(self._assets.items())[first:]:
             folder = os.path.join(self._folder, self._settings[_IN[asset.element.tag]])
             path = posixpath.basename(asset.path) if self._strips else asset.path
-            self._assets[name] = Asset(os.path.join(folder, path), asset.element)
+            complete = os.path.join(folder, path)
+            beside = os.path.join(os.path.dirname(asset.element.file.path), path)
+            if not workspace.exists(os.path.join(main, complete)) and workspace.exists(beside):
+                complete = os.path.relpath(beside, main or os.curdir)
+            self._assets[name] = Asset(complete, asset.element)
 
 
 def _normalize(path: str) -> str:

@@ -184,7 +184,8 @@ class _Reader:
             todo.append(f"</{element.tag}>")
             inner = parts if element.tag == "replicate" else copies
             todo += [(child, inner) for child in reversed(element.children)]
-        names.add_folders(known)
+        main = os.path.dirname(self.files[0].path)
+        names.add_folders(known, main, self.workspace)
         return "\n".join(out)
 
     def _include(self, element: Element, model: _Model, included: set[str]) -> Iterator[Element]:

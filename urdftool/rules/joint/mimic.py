@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Mimic, Robot
@@ -278,6 +279,8 @@ def mimic_limits_inconsistent(robot: Robot, *, tolerance: float = 1e-3) -> Itera
         if None in bounds:
             continue
         low, high, lower, upper = (value or 0.0 for value in bounds)
+        if not math.isfinite(high - low):  # a slide of an MJCF without a range
+            continue
         ends = sorted(mimic.multiplier * value + mimic.offset for value in (low, high))
         is_narrow = ends[0] < lower - tolerance or ends[1] > upper + tolerance
         if low <= high and lower <= upper and is_narrow:

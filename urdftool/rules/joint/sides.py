@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
 from collections.abc import Iterator
@@ -384,6 +385,8 @@ def _choose_unique(found: Sides, pair: Pair, pairs: list[Pair]) -> Joint:
 def _get_range(joint: Joint) -> tuple[float, float] | None:
     limit = joint.limit
     if not joint.is_limited or limit is None or limit.lower is None or limit.upper is None:
+        return None
+    if not math.isfinite(limit.upper - limit.lower):  # a slide of an MJCF without a range
         return None
     return (limit.lower, limit.upper) if limit.lower < limit.upper else None
 

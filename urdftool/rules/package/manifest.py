@@ -64,10 +64,13 @@ def undeclared_mesh_dependency(robot: Robot, description: Description) -> Iterat
     if own is None or _is_in_tests(description, own[1]):
         return
     declared = get_dependencies(description.workspace, own[1])
+    spelled = {name.replace("-", "_") for name in declared}  # both are used for one package
     for name, subject, at in _find_used_packages(robot, description, own):
         if _is_misnamed(name, description):
             continue  # package-not-found reports it
-        if name not in declared and not find_dependency_chain(name, own[0], description.packages):
+        if name.replace("-", "_") in spelled:
+            continue
+        if not find_dependency_chain(name, own[0], description.packages):
             yield Problem(
                 subject,
                 f"package '{name}' is used but is not a dependency of '{own[0]}'; "
