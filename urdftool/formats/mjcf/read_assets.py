@@ -92,8 +92,8 @@ class AssetNames:
     def add_folders(self, first: int, main: str, workspace: Workspace) -> None:
         """Complete the paths of files; all settings have been seen.
 
-        A file that is not there is looked for beside the included file that names it, as MuJoCo 4.0
-        does.
+        A file that is not there is looked for in the folder of the included file that names it, as
+        MuJoCo 4.0 does.
 
         Args:
             first: Number of files of other models, which precede those of this model.
