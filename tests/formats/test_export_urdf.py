@@ -171,3 +171,17 @@ def test_numbers_have_no_noise_and_gains_come_back(write):
     assert '<velocity name="w" joint="w" kv="3.5" ctrlrange="-9 9"/>' in model
     assert '<position name="a" joint="a" kp="30" kv="2" ctrlrange="-1 0.5"/>' in model
     assert "lossy-gains" not in {loss.code for loss in back.losses}
+
+
+def test_two_actuators_of_one_joint_are_announced(write, urdftool, tmp_path):
+    pytest.importorskip("mujoco")
+    write(
+        "m.xml",
+        """<mujoco><worldbody><body><geom size="0.1"/><joint type="slide" name="s"/></body>
+</worldbody>
+<actuator><motor name="m" joint="s"/><velocity name="v" joint="s"/></actuator></mujoco>""",
+    )
+    result = urdftool("export", "urdf", "m.xml", "-o", tmp_path / "out", "--verify")
+    assert result.code == 0
+    assert "act together, but ros2_control has them as modes of one joint" in result.err
+    assert "actuators: announced: joint 's': actuator is missing" in result.out

@@ -79,6 +79,8 @@ def _choose(t: Translation) -> dict[str, list[JointActuator]]:
     _report(t, laws, "are dropped, since ros2_control has no interface for their control law")
     _report(t, followers, "are dropped, since their joints mimic others")
     _report(t, seconds, "are dropped, since their joints have another of the same kind")
+    shared = [one for own in chosen.values() if len(own) > 1 for one in own]
+    _report(t, shared, "act together, but ros2_control has them as modes of one joint")
     return chosen
 
 
