@@ -179,3 +179,20 @@ def test_an_effort_of_zero_is_not_written(tmp_path, write):
     assert rules(written).count("lossy-effort") == 1
     rows = {check.name: check.verdict for check in written.checks}
     assert rows["limits"] in ("equal", "announced")
+
+
+@pytest.mark.library("mujoco")
+def test_a_slide_without_a_limit_stays_free(write, urdftool, tmp_path):
+    write(
+        "m.sdf",
+        """<sdf version="1.9"><model name="m"><link name="base"/>
+<joint name="w" type="fixed"><parent>world</parent><child>base</child></joint>
+<link name="cart"><inertial><mass>1</mass><inertia><ixx>.01</ixx><iyy>.01</iyy><izz>.01</izz>
+</inertia></inertial><collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry>
+</collision></link><joint name="s" type="prismatic"><parent>base</parent><child>cart</child>
+<axis><xyz>1 0 0</xyz></axis></joint></model></sdf>""",
+    )
+    result = urdftool("export", "usd", "m.sdf", "-o", tmp_path / "out", "--verify")
+    (row,) = [line for line in result.out.splitlines() if line.startswith("limits  ")]
+    assert row.endswith("announced")
+    assert "effort limits added: 1 ('s')" in result.out

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
@@ -49,7 +50,8 @@ def _set_values(joint: Joint, values: JointValues | None) -> Joint:
         if getattr(values, row.name) != getattr(own, row.name)
     })  # fmt: skip
     if values.effort != own.effort:
-        limit = replace(joint.limit or Limit(joint.provenance), effort=values.effort)
+        unlimited = Limit(joint.provenance, -math.inf, math.inf)  # no bound that is missing is 0
+        limit = replace(joint.limit or unlimited, effort=values.effort)
         joint = replace(joint, limit=limit)
     return joint
 
