@@ -304,20 +304,38 @@ TEMPLATE = """<robot name="object"><link name="base"><inertial><mass value="{0}"
         ("1,0", "i", False),
     ],
 )
-def test_a_template_is_said_and_a_slip_is_an_error(tmp_path, urdftool, mass, moment, is_template):
+def test_a_template_is_not_checked_and_a_slip_is_an_error(
+    tmp_path, urdftool, mass, moment, is_template
+):
     path = tmp_path / "object.urdf"
     path.write_text(TEMPLATE.format(mass, moment))
-    result = urdftool("lint", path)
-    assert (f"a template, in which a program replaces '{mass}'" in result.err) is is_template
-    assert ("not-a-number" in result.out) is not is_template
+    for place in (path, tmp_path):
+        result = urdftool("lint", place, "--no-cache")
+        said = f"object.urdf:1:50: error: a template, in which a program replaces '{mass}'"
+        assert ("a template, in which" in result.out) is is_template
+        assert (said in result.out) is is_template
+        assert "[not-a-number]" in result.out
+        assert (result.code == 2) is is_template
+        if is_template:
+            assert "1 not checked" in result.err or "1 file not checked" in result.err
+
+
+def test_a_template_that_is_excluded_by_name_is_skipped(tmp_path, urdftool):
+    (tmp_path / "object.urdf").write_text(TEMPLATE.format("MASS", "IXX"))
+    (tmp_path / "good.urdf").write_text(GOOD)
+    (tmp_path / "urdftool.toml").write_text('[lint]\nexclude = ["object.urdf"]\n')
+    result = urdftool("lint", tmp_path, "--select", "zero-axis")
+    assert result.code == 0
+    assert "checked 1 robot (1 variant), 0 files belong to it, 0 not checked" in result.err
 
 
 def test_a_folder_of_meshes_that_a_program_writes_is_said(tmp_path, urdftool):
     pytest.importorskip("mujoco")
     path = tmp_path / "gripper.xml"
     body = '<worldbody><body><geom type="mesh" mesh="a"/></body></worldbody></mujoco>'
-    for folder, code in (("__MESHDIR__", 0), ("meshes", 2)):
+    for folder in ("__MESHDIR__", "meshes"):
         path.write_text(f'<mujoco><asset><mesh name="a" file="{folder}/a.stl"/></asset>{body}')
         result = urdftool("lint", path)
-        assert result.code == code
-        assert ("a template" in result.err) is (code == 0)
+        assert result.code == 2
+        assert ("a template" in result.out) is (folder == "__MESHDIR__")
+        assert "gripper.xml:1:" in result.out

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from ..errors import SourceError, UrdftoolError
 from ..source.document import Element
 
 _WORD = re.compile(r"(?!INF|NAN)[A-Z][A-Z0-9_]{2,}|__[A-Z][A-Z0-9_]*__")
@@ -25,19 +26,34 @@ _NAMES = 3
 """Number of words that a message names. Chosen, no source."""
 
 
-def find_placeholders(root: Element) -> list[str]:
-    """Find the words in capitals that are in place of numbers, such as ``MASS``, each once."""
-    words = {
-        text.strip(): None
-        for element in root.walk()
-        for name, text in element.attributes.items()
-        if name in _NUMBERS and _WORD.fullmatch(text.strip())
-    }
-    return list(words)
+def refuse_template(root: Element) -> None:
+    """Check that numbers of a description are not words that a program replaces, such as ``MASS``.
+
+    Raises:
+        SourceError: At least ``FEWEST`` words in capitals are in place of numbers.
+    """
+    words: dict[str, Element] = {}
+    for element in root.walk():
+        for name, text in element.attributes.items():
+            if name in _NUMBERS and _WORD.fullmatch(text.strip()):
+                words.setdefault(text.strip(), element)
+    if len(words) >= FEWEST:
+        at = next(iter(words.values())).place
+        raise SourceError(_describe_template(list(words)), at=at, rule="not-a-number")
 
 
-def describe_template(words: Sequence[str]) -> str:
-    """Describe a file that is not checked, because a program has to replace words in it."""
+def find_template_error(error: UrdftoolError) -> UrdftoolError:
+    """Return the error of a template instead of one of a file that a program has yet to name."""
+    word = error.data.get("placeholder")
+    if word is None:
+        return error
+    return SourceError(_describe_template([word]), at=error.at)
+
+
+def _describe_template(words: Sequence[str]) -> str:
     shown = ", ".join(f"'{word}'" for word in words[:_NAMES])
     more = f" and {len(words) - _NAMES} more" if len(words) > _NAMES else ""
-    return f"a template, in which a program replaces {shown}{more}; lint what it writes"
+    return (
+        f"a template, in which a program replaces {shown}{more}; lint what it writes, and name the "
+        "template in lint.exclude"
+    )

@@ -45,7 +45,7 @@ from .motion import (
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .options import Options
 from .outcome import NOT_EXPANDED, Report
-from .placeholders import FEWEST, describe_template, find_placeholders
+from .placeholders import find_template_error, refuse_template
 from .questions import join_variants, list_questions
 from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
@@ -133,14 +133,8 @@ def _check_variant(
             except LimitError:
                 raise
             except (SourceError, ModelError) as error:
-                word = error.data.get("placeholder", "")
-                if word:
-                    report.skipped = describe_template([word])
-                    return report
                 rule = "not-well-formed" if isinstance(error, XmlError) else "unreadable-model"
-                report.stopped = error.message
-                report.findings = [convert_error(error, {}, unchecked=True, rule=rule)]
-                return report
+                return _stop(report, find_template_error(error), rule)
             if other is not None:
                 assert other.source is not None
                 report.unread = other.unread
@@ -165,9 +159,10 @@ def _check_variant(
                 report.skipped = explain_no_links(description)
                 return report
             refuse_srdf(description)
-            if len(words := find_placeholders(root)) >= FEWEST:
-                report.skipped = describe_template(words)
-                return report
+            try:
+                refuse_template(root)
+            except SourceError as error:
+                return _stop(report, error, "not-a-number")
     except UrdftoolError as error:
         report.error = error
         return report
@@ -185,6 +180,13 @@ def _check_variant(
         packages = _make_packages(file, options, configuration)
         description = _make_unexpanded(file, failures, packages)
     _check_description(description, robot, settings, report, failures, options)
+    return report
+
+
+def _stop(report: Report, error: UrdftoolError, rule: str) -> Report:
+    """Return the report of a robot that was not checked, with the error as its finding."""
+    report.stopped = error.message
+    report.findings = [convert_error(error, {}, unchecked=True, rule=rule)]
     return report
 
 
