@@ -62,8 +62,7 @@ def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
 
     Annotations that are not in ``_KINDS``, such as those of words, are checked by the function.
 
-    Args:
-        function: A function whose module has ``from __future__ import annotations``.
+    The module of the function has ``from __future__ import annotations``.
     """
     names = function.__code__.co_varnames[: function.__code__.co_argcount]
     kinds: Mapping[str, str] = function.__annotations__

@@ -215,13 +215,7 @@ def _read_outcome(future: Any) -> Any:
 
 
 def run_tasks(plugin: str, job: bytes, tasks: Sequence[bytes]) -> list[bytes]:
-    """Run a group of tasks in a process of this Dask worker; return their pickled outcomes.
-
-    Args:
-        plugin: Name of the plugin that holds the processes.
-        job: Pickled :class:`Job`.
-        tasks: Pickled tasks.
-    """
+    """Run a group of tasks in a process of this Dask worker; return their pickled outcomes."""
     import distributed
 
     library: Any = distributed

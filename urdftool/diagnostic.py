@@ -135,12 +135,7 @@ def make_warning(code: str, message: str, **data: Any) -> Diagnostic:
 
 
 def make_deprecated_name(old: str, new: str) -> property:
-    """Make a property that returns another attribute, with a deprecation warning.
-
-    Args:
-        old: Name of the property.
-        new: Name of the attribute.
-    """
+    """Make a property that returns another attribute, with a deprecation warning."""
 
     def read(self: object) -> Any:
         warnings.warn(f"'{old}' is now '{new}'", DeprecationWarning, stacklevel=2)

@@ -16,10 +16,6 @@ _MACOS_SWAP = 2  # RENAME_SWAP of renamex_np of macOS
 def exchange_names(one: Path, other: Path) -> bool:
     """Exchange the names of two files or folders: at each moment both names exist.
 
-    Args:
-        one: A path.
-        other: A path in the same file system.
-
     Returns:
         Whether the names are exchanged; False if the system cannot do it.
 

@@ -19,11 +19,6 @@ def run_git(
 ) -> subprocess.CompletedProcess[bytes]:
     """Run git in a folder and return its result.
 
-    Args:
-        folder: The folder.
-        words: Command and arguments.
-        given: Its standard input.
-
     Raises:
         OSError: Git is not installed.
     """

@@ -47,11 +47,7 @@ def restore_folder(target: str | Path) -> bool:
 
 
 def remove_leftovers(places: Iterable[Path]) -> None:
-    """Remove the temporary files of outputs that processes left which no longer run.
-
-    Args:
-        places: The outputs, which are complete.
-    """
+    """Remove the temporary files of outputs that processes left which no longer run."""
     for path in _find_leftovers(places, same_process=True):
         with suppress(OSError):
             remove(path)

@@ -14,12 +14,7 @@ from .workspace import Workspace
 
 
 def write_result(text: str, target: str | None, *, inputs: Iterable[str | Path] = ()) -> None:
-    """Write a result to standard output or to a file.
-
-    Args:
-        text: The result.
-        target: Path of the file; ``-`` or None is standard output.
-        inputs: Files read for the result, which must not be overwritten.
+    """Write a result to standard output (``-`` or None), or to a file that is none of the inputs.
 
     Raises:
         OutputError: The target cannot be written or is an input; the file is unchanged.
@@ -38,11 +33,7 @@ def _is_same_file(one: str | Path, other: str | Path) -> bool:
 
 
 def check_target(target: str | Path, *, inputs: Iterable[str | Path] = ()) -> None:
-    """Check that an output can be written, before the result is computed.
-
-    Args:
-        target: Path of the output.
-        inputs: Files that must not be overwritten.
+    """Check that an output can be written and is none of the inputs, before the result is computed.
 
     Raises:
         OutputError: It is an input, a folder or read-only, or its folder cannot be created.
@@ -62,10 +53,6 @@ def check_target(target: str | Path, *, inputs: Iterable[str | Path] = ()) -> No
 
 def check_folder(folder: Path, target: str | Path) -> None:
     """Check that the folder of an output exists or can be created.
-
-    Args:
-        folder: Real path of the folder.
-        target: Path of the output, for the message.
 
     Raises:
         OutputError: A part of the path is a file or a link out of its project, or its last
@@ -99,11 +86,7 @@ def check_links(target: str | Path) -> None:
 def check_targets(
     targets: Iterable[str | Path | None], *, inputs: Iterable[str | Path] = ()
 ) -> None:
-    """Check all outputs of a command before any is written.
-
-    Args:
-        targets: Paths of the outputs; None and ``-`` are skipped.
-        inputs: Files that must not be overwritten.
+    """Check all outputs of a command before any is written; None and ``-`` are skipped.
 
     Raises:
         OutputError: An output cannot be written, or two outputs are the same file.
@@ -123,11 +106,6 @@ def write_file(target: str | Path, data: bytes, *, inputs: Iterable[str | Path] 
     """Write a file completely or not at all.
 
     Symbolic links are followed; the mode of an existing file is kept.
-
-    Args:
-        target: Path of the file.
-        data: Its contents.
-        inputs: Files that must not be overwritten.
 
     Raises:
         OutputError: The file cannot be written or is an input; its old contents are unchanged.

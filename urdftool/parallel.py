@@ -234,12 +234,7 @@ class _Worker:
         self.began = 0.0
 
     def begin(self, index: int, task: object) -> None:
-        """Send a task to the process.
-
-        Args:
-            index: Index of the task, stored for the outcome.
-            task: The task.
-        """
+        """Send a task to the process."""
         self.index, self.began = index, monotonic()
         with suppress(BrokenPipeError, ConnectionError):  # receive() returns the loss
             self.connection.send((task,))

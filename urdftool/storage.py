@@ -419,12 +419,7 @@ class DiskCache:
 
 
 def join_parts(head: object, parts: Sequence[bytes]) -> bytes:
-    """Return the plain form of an entry that has binary parts.
-
-    Args:
-        head: Values that JSON can represent.
-        parts: The parts.
-    """
+    """Return the plain form of an entry that has binary parts."""
     line = json.dumps([head, [len(part) for part in parts]]).encode()
     return b"".join([line, b"\n", *parts])
 

@@ -85,13 +85,7 @@ def suggest_name(name: str, known: Iterable[str], cutoff: float = 0.7) -> str:
 
 
 def require_word(name: str, value: object, words: Collection[str]) -> None:
-    """Raise ConfigError if the value of an option is not one of the allowed words.
-
-    Args:
-        name: Name of the option.
-        value: Its value.
-        words: Allowed words.
-    """
+    """Raise ConfigError if the value of an option is not one of the allowed words."""
     if value not in words:
         hint = suggest_name(str(value), words)
         raise ConfigError(f"{name} is {value!r}, which is not one of {', '.join(words)}{hint}")
@@ -106,14 +100,7 @@ def require_positive(name: str, value: object) -> None:
 def require_number(
     name: str, value: object, least: float = -math.inf, most: float = math.inf
 ) -> None:
-    """Raise ConfigError if the value of an option is not a finite number of a range.
-
-    Args:
-        name: Name of the option.
-        value: Its value.
-        least: Least allowed value.
-        most: Greatest allowed value.
-    """
+    """Raise ConfigError if the value of an option is not a finite number of a range."""
     if isinstance(value, Real) and math.isfinite(value) and least <= float(value) <= most:
         return
     bounds = "" if least == -math.inf else f" of at least {least:g}"

@@ -110,9 +110,6 @@ class Workspace:
         """Return a view that opens only what a policy allows; it shares overlay and record.
 
         Values in the memo are shared with the views of equal policies.
-
-        Args:
-            access: The policy; None for all files except devices and pipes.
         """
         view = Workspace.__new__(Workspace)
         view.__dict__.update(self.__dict__)
@@ -127,9 +124,6 @@ class Workspace:
         """Return a workspace in which some files have other contents.
 
         It shares the memo entries that do not depend on those files.
-
-        Args:
-            overlay: Contents by path, in addition to the present overlay.
         """
         other = _restore({**self._overlay, **overlay}, self._access)
         other._base = self
@@ -204,11 +198,7 @@ class Workspace:
         return self._overlay.get(_get_key(path))
 
     def read_bytes(self, path: str | Path, most: int = MAX_BYTES) -> bytes:
-        """Return the contents of a file.
-
-        Args:
-            path: The file.
-            most: Maximum size [bytes].
+        """Return the contents of a file, of at most ``most`` bytes.
 
         Raises:
             OSError: The file cannot be read, or is larger.
@@ -385,9 +375,6 @@ class Workspace:
 
     def match(self, pattern: str) -> list[str]:
         """Return the sorted paths that match a path with wildcards, as ``glob.glob``.
-
-        Args:
-            pattern: A path; ``*``, ``?`` and ``[…]`` are wildcards.
 
         Raises:
             OSError: A part of it matches more than ``MAX_MATCHES`` paths.

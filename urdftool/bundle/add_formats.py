@@ -25,11 +25,6 @@ FORMATS = ("urdf", "sdf", "mjcf")
 def add_srdf(bundle: Bundle, robot: Robot, path: Path) -> None:
     """Add an SRDF to a bundle; xacro is expanded.
 
-    Args:
-        bundle: The bundle.
-        robot: The source, whose packages are used.
-        path: The SRDF.
-
     Raises:
         SourceError: It cannot be read or expanded, or is not an SRDF.
     """

@@ -83,11 +83,7 @@ class Collection:
 
 
 def collect(robot: Robot) -> Collection:
-    """Find the files of a robot.
-
-    Args:
-        robot: A robot with its source.
-    """
+    """Find the files of a robot."""
     found = Collection()
     known: dict[Path, Asset] = {}
     for link, shape in robot.shapes:

@@ -26,10 +26,6 @@ NO_FOLDERS: Mapping[str, str] = {}
 def make_urdf(robot: Robot, name: str) -> SourceFile:
     """Return the description as plain URDF in UTF-8; xacro is expanded.
 
-    Args:
-        robot: A robot that was read from URDF or xacro.
-        name: Path of the file, for messages.
-
     Raises:
         ModelError: The robot was read from another format.
     """
@@ -39,12 +35,7 @@ def make_urdf(robot: Robot, name: str) -> SourceFile:
 
 
 def expand_description(description: Description, name: str) -> SourceFile:
-    """Return a description as plain XML in UTF-8; xacro is expanded.
-
-    Args:
-        description: The description.
-        name: Path of the file, for messages.
-    """
+    """Return a description as plain XML in UTF-8; xacro is expanded."""
     if description.expansion is not None:
         text = write_xml(description.expansion.tree, [])
         return SourceFile(name, text.encode())
@@ -114,11 +105,7 @@ def rewrite(
 
 
 def format_comment(name: str) -> str:
-    """Return the comment of a bundled description.
-
-    Args:
-        name: Name of the source file.
-    """
+    """Return the comment of a bundled description."""
     plain = re.sub(r"-{2,}|[<>:]", "_", name)
     return f"Bundled by urdftool {__version__} from {plain}. The file bundle.json lists the sources"
 

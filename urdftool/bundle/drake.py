@@ -26,11 +26,7 @@ Change = tuple[Edit, Finding]
 
 
 def change_for_drake(file: SourceFile) -> tuple[SourceFile, list[Finding]]:
-    """Return a URDF that Drake loads, and a finding for each change.
-
-    Args:
-        file: The URDF.
-    """
+    """Return a URDF that Drake loads, and a finding for each change."""
     findings: list[Finding] = []
     for finders in _PASSES:
         source = parse_source(file)

@@ -22,12 +22,7 @@ _LONGEST = 80
 
 
 def make_portable(text: str, default: str = "unnamed") -> str:
-    """Return a text as a name of ASCII letters, digits and underscores.
-
-    Args:
-        text: Any text.
-        default: Result if no character remains.
-    """
+    """Return a text as a name of ASCII letters, digits and underscores."""
     ascii_text = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
     name = re.sub(r"\W+", "_", ascii_text).strip("_")[:_LONGEST] or default
     return f"{name}_" if _RESERVED.fullmatch(name) else name
@@ -40,11 +35,7 @@ class Layout:
     """
 
     def __init__(self, folder: str = MESHES) -> None:
-        """Start with an empty folder.
-
-        Args:
-            folder: Path of the folder in the bundle.
-        """
+        """Start with an empty folder."""
         self.folder = folder
         self._stems = UniqueNames(fold=True)
         self._names = UniqueNames(fold=True)

@@ -119,12 +119,7 @@ def encode_obj(mesh: Mesh, names: MaterialNames, shading: Array | None = None) -
 
 
 def encode_mtl(mesh: Mesh, names: MaterialNames) -> bytes:
-    """Encode the materials of an OBJ file.
-
-    Args:
-        mesh: The mesh.
-        names: Names of the images.
-    """
+    """Encode the materials of an OBJ file."""
     lines = ["# Materials bundled by urdftool"]
     for number, part in enumerate(mesh.parts):
         red, green, blue, opacity = part.rgba or GRAY

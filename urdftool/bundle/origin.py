@@ -44,12 +44,7 @@ class Repository:
 
 
 def name_source(path: str | Path, description: Path) -> str:
-    """Return a path without absolute folders: as a package URI, or relative to the description.
-
-    Args:
-        path: A source file.
-        description: The description.
-    """
+    """Return a path without absolute folders: as a package URI, or relative to the description."""
     full = Path(os.path.abspath(path))
     own = find_own_package(full)
     if own is not None:
@@ -59,9 +54,6 @@ def name_source(path: str | Path, description: Path) -> str:
 
 def find_licenses(sources: Iterable[Path]) -> dict[str, Path]:
     """Find the license files of the sources: in their folders, packages and repositories.
-
-    Args:
-        sources: Source files.
 
     Returns:
         License files by their path in the bundle.
@@ -106,13 +98,7 @@ def list_declared_licenses(sources: Iterable[Path]) -> dict[str, list[str]]:
 def report_licenses(
     sources: Iterable[Path], files: Iterable[Path], declared: Mapping[str, list[str]]
 ) -> list[Finding]:
-    """Return a finding for each package without a license, and each license that is to be done.
-
-    Args:
-        sources: Source files, the description first.
-        files: License files that were found.
-        declared: Licenses that the packages declare, of ``list_declared_licenses``.
-    """
+    """Return a finding for each package without a license, and each license that is to be done."""
     folders = {os.path.realpath(path.parent) for path in files}
     found: dict[str, Finding] = {}
     for path in sources:
@@ -154,9 +140,6 @@ def find_repositories(sources: Mapping[Path, str]) -> list[Repository]:
 
     The comparison with the commit reads objects only: no filter, hook or program that the
     repository configures is started.
-
-    Args:
-        sources: Names in the bundle by source file.
     """
     by_root: dict[Path, dict[Path, str]] = {}
     for path, name in sources.items():

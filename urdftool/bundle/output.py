@@ -67,12 +67,7 @@ def write_bundle(target: str | Path, bundle: Bundle, *, overwrite: bool = False)
 
 
 def zip_bytes(files: Mapping[str, Content], top: str) -> bytes:
-    """Return a zip file that is equal for equal files.
-
-    Args:
-        files: Content by path.
-        top: Folder in the zip file that contains all files.
-    """
+    """Return a zip file that is equal for equal files."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
         for name in sorted(files):

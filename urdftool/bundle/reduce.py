@@ -55,10 +55,6 @@ def reduce_mesh(mesh: Mesh, limits: Limits) -> Reduced | None:
 
     Vertices are merged and not moved. Sharp edges, open borders, borders of materials and seams of
     texture coordinates keep their shape. The error has precedence over the number of triangles.
-
-    Args:
-        mesh: The mesh.
-        limits: Limits.
     """
     count = limits.max_triangles
     if count is not None and len(mesh.faces) <= count:

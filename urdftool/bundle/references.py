@@ -48,12 +48,7 @@ def has_references(suffix: str) -> bool:
 
 
 def find_references(suffix: str, data: bytes) -> list[Reference]:
-    """Return the references of a mesh or material file, each once; none if it is damaged.
-
-    Args:
-        suffix: Suffix of the file, in lower case, with its dot.
-        data: Its content.
-    """
+    """Return the references of a mesh or material file, each once; none if it is damaged."""
     if suffix in _SPANS:
         found = [span.reference for span in _SPANS[suffix](data)]
     elif suffix in (".gltf", ".glb"):

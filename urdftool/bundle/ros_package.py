@@ -99,15 +99,7 @@ VIEW_DISTANCE = 3.0
 def make_package_files(
     name: str, robot: Robot, urdf: str, licenses: Iterable[str], folders: Iterable[str]
 ) -> dict[str, bytes]:
-    """Return the files of a ROS 2 package by path.
-
-    Args:
-        name: Name of the package.
-        robot: The robot.
-        urdf: Path of the description in the package.
-        licenses: Names of the licenses of the sources.
-        folders: Folders to install.
-    """
+    """Return the files of a ROS 2 package by path."""
     names = list(dict.fromkeys(licenses)) or ["unknown"]
     lines = "\n".join(f"  <license>{escape(text)}</license>" for text in names)
     installed = " ".join(sorted({*folders, "launch", "rviz"}))

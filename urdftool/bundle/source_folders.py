@@ -26,9 +26,6 @@ def list_source_folders(robot: Robot) -> dict[str, str]:
 
     Folders are the packages that the description uses, its own package, its project and its own
     folder. Without a package, the project is ``.`` in the result.
-
-    Args:
-        robot: A robot with its source.
     """
     source = robot.source
     if source is None:

@@ -30,10 +30,6 @@ _TOLERANCE = 1e-6
 def load_robot(robot: Robot, **options: Any) -> Any:
     """Return a robot as a ``yourdfpy.URDF`` with every mesh resolved.
 
-    Args:
-        robot: A robot that was read from URDF or xacro.
-        options: Arguments of ``yourdfpy.URDF``.
-
     Raises:
         ModelError: The robot was read from another format.
         MissingDependency: yourdfpy is not installed.

@@ -99,13 +99,7 @@ class Look:
 
 
 def look_at(robot: Robot, link: Link, max_error: float = 0.05) -> Look | None:
-    """Collect the shapes of a link to be measured; None if it has no visual.
-
-    Args:
-        robot: The robot.
-        link: The link.
-        max_error: Largest acceptable relative error.
-    """
+    """Collect the shapes of a link to be measured; None if it has no visual."""
     try:
         visuals = tuple(part for shape in link.visuals for part in _list_parts(robot, shape))
         collisions = tuple(part for shape in link.collisions for part in _list_parts(robot, shape))

@@ -76,11 +76,6 @@ class Choice:
 def choose(surface: Prepared, settings: Settings, cores: int = 1) -> Choice:
     """Compute the collision geometry of one mesh, independently of the number of cores.
 
-    Args:
-        surface: The mesh.
-        settings: Method and limits.
-        cores: Number of cores to use.
-
     Raises:
         MeshError: All points of the mesh lie on a line.
         MissingDependency: A library that the method requires is not installed.

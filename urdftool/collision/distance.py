@@ -148,11 +148,6 @@ def find_farthest(surface: Surface, points: Points, count: int = 1) -> tuple[flo
 
     The distance to the nearest sample is an upper bound, so only few points are measured exactly.
 
-    Args:
-        surface: The surface.
-        points: Points [m].
-        count: Number of points to return.
-
     Returns:
         The largest distance [m]; about ``count`` points with large distances, and those.
     """

@@ -19,12 +19,7 @@ _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribut
 
 
 def encode_mesh(pieces: Sequence[Piece], suffix: str) -> bytes:
-    """Encode pieces as a mesh file, in meters.
-
-    Args:
-        pieces: The pieces; each is an object of an OBJ file.
-        suffix: ``".stl"`` or ``".obj"``.
-    """
+    """Encode pieces as a mesh file ``.stl`` or ``.obj``, in meters; each is an object of an OBJ."""
     return _encode_obj(pieces) if suffix == ".obj" else _encode_stl(pieces)
 
 

@@ -81,12 +81,6 @@ def write_robot(
 ) -> Written:
     """Write a robot with new collisions and the mesh files of its pieces, all or none.
 
-    Args:
-        robot: The robot.
-        plans: Plans for its links.
-        results: Results of their meshes.
-        place: Output location.
-
     Raises:
         OutputError: A file cannot be written or is an input; existing files are unchanged.
         SourceError: The requested kind of URI is not possible.

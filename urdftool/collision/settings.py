@@ -97,12 +97,7 @@ class Settings:
 
     @classmethod
     def from_quality(cls, quality: str, **changes: Any) -> Settings:
-        """Return the settings of one of ``QUALITIES``, with its limits, and some replaced.
-
-        Args:
-            quality: ``"fast"``, ``"balanced"`` or ``"tight"``.
-            changes: Fields to replace.
-        """
+        """Return the settings of one of ``QUALITIES``, with its limits, and some replaced."""
         return cls().replace_some({"quality": quality, **changes})
 
     @property

@@ -94,11 +94,7 @@ def read_surface(
 
 
 def merge_surfaces(first: Prepared, others: Sequence[tuple[Prepared, Pose]]) -> Prepared:
-    """Merge the meshes of a link into one surface, in the frame of the first one.
-
-    Args:
-        first: The first mesh.
-        others: The others, each with its pose in that frame.
+    """Merge meshes of a link in the frame of the first one; the others have poses in that frame.
 
     Raises:
         MeshError: The meshes are too far apart.

@@ -173,11 +173,6 @@ def command(
 def _convert(robot: Robot, folder: Path, force: bool) -> tuple[Robot | None, Robot, list[Finding]]:
     """Return the original if it is not URDF, the robot as URDF, and the losses between them.
 
-    Args:
-        robot: The robot.
-        folder: An empty folder for the URDF.
-        force: Whether to continue in spite of defects.
-
     Raises:
         Refused: The robot has defects that prevent the conversion.
     """

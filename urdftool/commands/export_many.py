@@ -80,11 +80,7 @@ class Exporter:
     values: Mapping[str, Any]
 
     def __call__(self, task: tuple[str, str]) -> Outcome:
-        """Export a robot.
-
-        Args:
-            task: Path of the robot, and the folder of the result.
-        """
+        """Export a robot."""
         from ..cli import report_failures
 
         path, output = task

@@ -88,11 +88,7 @@ def add_output_option(files: str) -> Callable[[F], F]:
 
 
 def make_export_options(verify: str) -> Callable[[F], F]:
-    """Make a decorator that adds the options of strictness, verification and output.
-
-    Args:
-        verify: Help text of ``--verify``.
-    """
+    """Make a decorator that adds the options of strictness, verification and output."""
     return _make_decorator(
         [
             click.option(

@@ -14,12 +14,7 @@ if TYPE_CHECKING:
 
 
 def prove_pairs(console: Console, robot: Robot, srdf: Path | None) -> PairProofs:
-    """Prove the pairs of an SRDF, with a progress bar.
-
-    Args:
-        console: Output for progress.
-        robot: The robot.
-        srdf: The SRDF; None for no pairs.
+    """Prove the pairs of an SRDF, if one is given, with a progress bar.
 
     Raises:
         SourceError: The SRDF cannot be read.

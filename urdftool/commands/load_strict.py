@@ -112,12 +112,7 @@ def get_finder(
 
 
 def report_gltf_axes(console: Console, robot: Robot) -> None:
-    """Print a note if the axes of glTF meshes are converted, which readers do differently.
-
-    Args:
-        console: Output for the note.
-        robot: Robot.
-    """
+    """Print a note if the axes of glTF meshes are converted, which readers do differently."""
     from ..model.gltf_axes import describe_gltf_axes
 
     if axes := describe_gltf_axes(robot):

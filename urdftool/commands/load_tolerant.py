@@ -88,13 +88,7 @@ def load_tolerant(
 def add_implicit_world(
     console: Console, robot: Robot, *, shown: Callable[[str], str] = str
 ) -> Robot:
-    """Add the link ``world`` if a joint has it as parent and it is not defined; print a warning.
-
-    Args:
-        console: Output for the warning.
-        robot: Robot.
-        shown: Formats a path for messages.
-    """
+    """Add the link ``world`` if a joint has it as parent and it is not defined; print a warning."""
     from ..model.world import add_world
 
     whole, joint = add_world(robot)

@@ -66,12 +66,7 @@ def report_open_loops(console: Console, robot: Robot) -> None:
 
 
 def take_robot_of_scene(console: Console, robot: Robot) -> Robot:
-    """Return the robot of a scene, and print what is not simulated.
-
-    Args:
-        console: Output for warnings.
-        robot: Robot; one that was read from URDF is returned as it is.
-    """
+    """Return the robot of a scene, and print what is not simulated; a URDF is no scene."""
     from ..simulation.scene import take_robot
 
     report_replaced(console, robot)

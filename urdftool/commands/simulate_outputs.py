@@ -115,12 +115,7 @@ class Outputs:
 
 
 def check_output(option: str, path: str, ending: str) -> None:
-    """Refuse a file that cannot be written.
-
-    Args:
-        option: Option of the file, for messages.
-        path: File.
-        ending: Required suffix, or "".
+    """Refuse a file that cannot be written, or has another suffix than a required one.
 
     Raises:
         UsageError: The suffix is wrong, or the path is a folder or read-only.

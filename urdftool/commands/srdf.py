@@ -167,13 +167,7 @@ def write_moveit(
 
 
 def decide_pairs(console: Console, robot: Robot, values: dict[str, Any]) -> Verdicts:
-    """Decide the pairs of a robot, and print the summary and what is open.
-
-    Args:
-        console: Output for messages.
-        robot: Robot.
-        values: Values of the options.
-    """
+    """Decide the pairs of a robot, and print the summary and what is open."""
     from ..report import srdf as report
     from ..srdf.verdicts import Options, decide
 

@@ -89,15 +89,7 @@ def check(
     verdicts: Verdicts,
     values: dict[str, Any],
 ) -> int:
-    """Print what is known of the pairs of an SRDF; return 1 if a disabled pair can touch.
-
-    Args:
-        console: Output for the summary.
-        robot: Robot.
-        content: Content of the SRDF.
-        verdicts: Verdicts on the pairs.
-        values: Values of the options.
-    """
+    """Print what is known of the pairs of an SRDF; return 1 if a disabled pair can touch."""
     from ..output import write_result
     from ..report import srdf_existing as report
     from ..srdf.contact_poses import list_disabled_contacts
@@ -119,13 +111,6 @@ def update(
     values: dict[str, Any],
 ) -> int:
     """Update the pairs of an SRDF, and list the changes.
-
-    Args:
-        console: Output for the changes.
-        robot: Robot.
-        content: Content of the SRDF.
-        verdicts: Verdicts on the pairs.
-        values: Values of the options.
 
     Returns:
         1 if a pair that can touch stays, or a proved pair could not be added.

@@ -31,10 +31,7 @@ def compare(a: Robot, b: Robot, *, tolerance: float = TOLERANCE) -> Iterator[Dif
     Order, comments and formatting are ignored, and so are equivalent notations of poses and
     tensors.
 
-    Args:
-        a: The first (old) robot.
-        b: The second (new) robot.
-        tolerance: Tolerance as in ``tolerance.TOLERANCE``.
+    ``tolerance`` is as in ``tolerance.TOLERANCE``.
     """
     robots = a, b
 

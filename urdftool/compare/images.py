@@ -26,10 +26,6 @@ def add_images(robot: Robot, images: Sequence[Image]) -> Robot:
     values. Blocks of simulators and controllers that are about such a link or joint are copied
     with the names of the images, except for elements with a pose.
 
-    Args:
-        robot: The robot; it is not modified.
-        images: The images.
-
     Raises:
         ConfigError: A link or joint does not exist, the name of an image does, or the link of a
             joint has no image.

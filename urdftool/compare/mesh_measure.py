@@ -274,11 +274,6 @@ def measure_distance(one: Measure, two: Measure, tolerance: float) -> float:
 
     If these agree, points of each surface are measured to the other: a mesh and its mirror image
     may agree in all of them.
-
-    Args:
-        one: A surface.
-        two: The other.
-        tolerance: Distance of equal surfaces [m].
     """
     size = max(one.size, two.size, 1e-9)
     area = abs(one.area - two.area) / max(one.area, two.area) * size

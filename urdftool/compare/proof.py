@@ -237,13 +237,7 @@ def _drop_world(robot: Robot, claims: Claims) -> Robot:
 
 
 def make_checks(source: Robot, comparison: Comparison, claims: Claims) -> list[Check]:
-    """Return a row for each compared property, in which explained differences are announced.
-
-    Args:
-        source: The first robot of the comparison.
-        comparison: The comparison.
-        claims: Declared losses.
-    """
+    """Return a row for each compared property, in which explained differences are announced."""
     back = {new: old for (_, old), new in claims.renamed.items()}
     explained = [(excuse, _find_explained(source, excuse, claims)) for excuse in claims.excuses]
     checks = {row.name: comparison.start_check(row) for row in comparison.rows}

@@ -13,12 +13,7 @@ from .correspondence import JointValue
 
 
 def shift_blocks(robot: Robot, known: Mapping[str, JointValue]) -> Robot:
-    """Return the robot with shifted positions and ranges of its hardware interfaces.
-
-    Args:
-        robot: The robot; it is not modified.
-        known: New positions by joint.
-    """
+    """Return the robot with shifted positions and ranges of its hardware interfaces."""
     if robot.xml is None or not known:
         return robot
     root = copy(robot.xml)

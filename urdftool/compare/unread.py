@@ -176,12 +176,7 @@ _Part = tuple[str, str, str | None]
 
 
 def _collect(robot: Robot, other: Robot) -> dict[str, Counter[_Part]]:
-    """Return the unread parts of a robot by the code of their loss.
-
-    Args:
-        robot: The robot.
-        other: The robot with which it is compared.
-    """
+    """Return the unread parts of a robot by the code of their loss."""
     found: dict[str, Counter[_Part]] = {}
     for loss in robot.unread:
         code = loss.code.removeprefix("unread-")

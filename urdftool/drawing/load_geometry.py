@@ -117,11 +117,6 @@ def read_surface(
     """Read a visual or collision in the frame of its link; None if it cannot be drawn.
 
     The reason is recorded as a problem, unless the geometry is missing, unknown or empty.
-
-    Args:
-        gathering: State of the reading.
-        shape: The visual or collision.
-        over: Whether collision geometry is drawn over visual geometry.
     """
     surface = _read_surface(gathering, shape)
     if surface is None:

@@ -73,12 +73,6 @@ def choose_best_camera(
     """Choose the camera whose pictures show most of the moved links.
 
     The first camera is preferred unless another shows over 1.5 times as many pixels.
-
-    Args:
-        cloud: Points on the robot.
-        poses: Poses of the links, for each picture.
-        moved: Links that move.
-        cameras: At least one.
     """
     moves = np.isin(cloud.link, [row for row, name in enumerate(cloud.links) if name in moved])
     points = []

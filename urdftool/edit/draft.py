@@ -267,12 +267,7 @@ _XACRO = ("xmlns:xacro",)
 
 
 def flatten_element(element: Element, ignored: Sequence[str] = ()) -> tuple[object, ...]:
-    """Return tag, attributes, text and children of an element, to compare it.
-
-    Args:
-        element: The element.
-        ignored: Names of attributes that are left out.
-    """
+    """Return tag, attributes, text and children of an element, to compare it."""
     inner = tuple(flatten_element(child) for child in element.children)
     values = sorted((k, v) for k, v in element.attributes.items() if k not in ignored)
     return element.tag, tuple(values), element.text.strip(), inner

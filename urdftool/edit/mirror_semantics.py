@@ -18,12 +18,6 @@ def copy_semantics(draft: Draft, file: TextDraft, names: Names, rename: Rename) 
     """Copy the groups, states, end effectors and pairs of one side, with the names of the image.
 
     A group that is about other parts, too, is reported.
-
-    Args:
-        draft: The robot.
-        file: The SRDF.
-        names: Names of the image.
-        rename: Returns the names of groups and end effectors of the image.
     """
     root = file.source.document.root
     groups = _list_groups(draft, root, names)

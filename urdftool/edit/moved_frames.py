@@ -25,10 +25,6 @@ def turn_with_frames(draft: Draft, path: Sequence[Joint]) -> None:
 
     The old parent of a moving joint gets its frame at the joint: with X of each link, its new frame
     in its old one, the joint from C to P is X(C)⁻¹ M(-a, q) for X(P) = T, its origin before.
-
-    Args:
-        draft: The robot.
-        path: The joints, the nearest to the new root first.
     """
     moved: dict[str, Pose] = {}
     for joint in path:

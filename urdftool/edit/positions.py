@@ -25,10 +25,6 @@ _LOST = 1e-9
 def change_positions(draft: Draft, changes: Mapping[str, Change]) -> None:
     """Give joints another sign and zero; all frames move as before.
 
-    Args:
-        draft: The robot.
-        changes: New positions by joint.
-
     Raises:
         ModelError: A joint does not exist, or does not have one position.
     """

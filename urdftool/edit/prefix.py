@@ -13,12 +13,9 @@ from .references import Names, list_names_in_text, list_others, rename
 
 
 def add_prefix(draft: Draft, prefix: str, *, keep: Collection[str] = ()) -> None:
-    """Put a prefix before the names of links, joints, materials, transmissions and hardware.
+    """Put a prefix before names of links, joints, materials, transmissions and hardware.
 
-    Args:
-        draft: The robot.
-        prefix: The prefix.
-        keep: The link ``world`` and hardware components that keep their names.
+    The names of ``keep`` stay: the link ``world`` and hardware components.
 
     Raises:
         ModelError: The prefix cannot be in a name, or a name is computed.

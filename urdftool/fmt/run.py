@@ -35,9 +35,6 @@ class Formatted:
 def format_file(file: SourceFile) -> Formatted:
     """Return a file with its layout.
 
-    Args:
-        file: The file.
-
     Raises:
         XmlError: The file is not well-formed, or declares entities.
         SourceError: It is in UTF-16 or UTF-32.

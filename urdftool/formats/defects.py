@@ -29,12 +29,7 @@ def report_defects(robot: Robot) -> list[Finding]:
 
 
 def report_size(robot: Robot, name: str) -> list[Finding]:
-    """Report a robot with more links than the library of a format takes.
-
-    Args:
-        robot: The robot.
-        name: Name of the format.
-    """
+    """Report a robot with more links than the library of a format takes."""
     count = len(robot.links)
     if count <= MAX_LINKS:
         return []
@@ -43,11 +38,7 @@ def report_size(robot: Robot, name: str) -> list[Finding]:
 
 
 def report_taken_world(robot: Robot) -> tuple[Robot, list[Finding]]:
-    """Add the world link to a robot that names it without declaring it; report the defects of that.
-
-    Args:
-        robot: Any robot; it is copied unchanged.
-    """
+    """Return a robot with the world link that it names but does not declare; report the defects."""
     whole, joint = add_world(robot)
     if joint is None:
         return robot, []

@@ -155,13 +155,7 @@ def open_description(
     packages: Packages | None,
     workspace: Workspace | None,
 ) -> Opened:
-    """Read the file of a description, unless it has been read, and create what is None.
-
-    Args:
-        path: The file, or ``-`` for standard input.
-        file: The file, if it has been read.
-        packages: Finder of packages.
-        workspace: Access to files.
+    """Read a description (``-``: standard input) that is not read yet, and create what is None.
 
     Raises:
         SourceError: The file cannot be read.

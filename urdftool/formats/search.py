@@ -38,9 +38,6 @@ def find_other_descriptions(paths: Iterable[str]) -> Found:
 
     A part that another MJCF file below the folders includes is skipped, and so is a world of SDF
     without a link of its own. MJCF is not checked without MuJoCo.
-
-    Args:
-        paths: Files and folders; files are ignored.
     """
     found, models = Found(), {}
     folders = [path for path in paths if os.path.isdir(path)]

@@ -38,9 +38,6 @@ def read(path: Path) -> Reading:
     Node transforms are applied in full; mirrored instances have their winding reversed. Skins are
     read in their bind shape, without joints. Lines are skipped.
 
-    Args:
-        path: The file.
-
     Raises:
         MeshError: The file is malformed, declares XML entities or an invalid unit, or has no scene.
     """

@@ -66,10 +66,7 @@ class Triangles(NamedTuple):
     texture_sets: list[TextureSet]
 
     def get_texture_coordinates(self, number: str | None) -> Points | None:
-        """Return the texture coordinates of each corner, shape (m, 3, 2).
-
-        Args:
-            number: Number of the set; the first one if there is no such set.
+        """Return texture coordinates of a set, else the first, at each corner, shape (m, 3, 2).
 
         Returns:
             None if there are none, or a row is out of range.

@@ -30,11 +30,7 @@ Array = npt.NDArray[np.float64]
 
 
 def compute_box_size(robot: Robot, links: Iterable[tuple[Link, Pose]]) -> Vector | None:
-    """Compute the edge lengths [m] of the bounding box of links that form one body.
-
-    Args:
-        robot: The robot.
-        links: The links, each with its pose in the frame of the box.
+    """Compute the edge lengths [m] of the bounding box of links with poses in its frame.
 
     Returns:
         Edges of the collision geometry, else of the visual geometry; None without geometry.

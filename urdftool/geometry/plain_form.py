@@ -39,10 +39,6 @@ def check_triangles(points: Points, faces: Faces) -> None:
 def decode_numbers(data: bytes, *shape: int) -> Points:
     """Return the rows of an array of finite numbers.
 
-    Args:
-        data: Its bytes.
-        shape: The shape of a row.
-
     Raises:
         ValueError: A number is not finite, or the bytes are not a number of rows.
     """

@@ -130,12 +130,7 @@ def compute_content_key(path: Path) -> str:
 
 
 def merge_in_cells(mesh: Mesh, cell: float) -> Mesh:
-    """Merge the vertices in each cell of a grid, and drop the triangles that vanish.
-
-    Args:
-        mesh: The mesh.
-        cell: Edge of a cell [m].
-    """
+    """Merge the vertices in each cell, of edge ``cell`` [m], and drop the triangles that vanish."""
     at = np.floor((mesh.vertices - mesh.vertices.min(axis=0)) / cell).astype(np.int64)
     sizes = at.max(axis=0) + 1
     number = (at[:, 0] * sizes[1] + at[:, 1]) * sizes[2] + at[:, 2]

@@ -161,12 +161,7 @@ def merge_vertices(
 
 
 def find_used_vertices(faces: Faces, count: int) -> npt.NDArray[np.int64]:
-    """Return the indices of the vertices that faces use, ascending.
-
-    Args:
-        faces: Indices of vertices.
-        count: Number of vertices.
-    """
+    """Return the indices of the vertices that faces use, ascending."""
     used = np.zeros(count, dtype=bool)
     used[faces.reshape(-1)] = True
     return np.flatnonzero(used)

@@ -20,12 +20,7 @@ def shorten_name(name: str) -> str:
 
 
 def make_file_name(name: str, otherwise: str) -> str:
-    """Convert a robot's name to a valid file name.
-
-    Args:
-        name: The robot's name.
-        otherwise: File name for a robot without a valid name.
-    """
+    """Convert a robot's name to a valid file name."""
     plain = "".join("_" if c in "/\\" or not c.isprintable() else c for c in name).strip()
     kept = plain.encode("utf-8", "replace")[:_LONGEST_FILE_NAME].decode("utf-8", "ignore")
     return kept if kept.strip(".") else otherwise

@@ -20,11 +20,7 @@ class DrawError(UrdftoolError):
 
 
 def draw(text: str, format: str) -> bytes:
-    """Render a graph.
-
-    Args:
-        text: The graph in DOT.
-        format: One of ``FORMATS``.
+    """Render a graph in DOT in one of ``FORMATS``.
 
     Raises:
         DrawError: Rendering takes longer than ``MAX_SECONDS``, or Graphviz crashes.

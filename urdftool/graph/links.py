@@ -10,11 +10,6 @@ def find_ends(figure: Figure, joint: Joint, keys: dict[str, str]) -> tuple[str, 
     """Return the keys of the parent's and the child's node.
 
     A node is added for each link that does not exist, and for each missing name.
-
-    Args:
-        figure: Figure to extend.
-        joint: The joint.
-        keys: Node keys by link name; missing links are added to it.
     """
     found = []
     for name, element in (

@@ -16,12 +16,7 @@ class Walk(NamedTuple):
 
 
 def walk(robot: Robot, order: Callable[[Sequence[Joint]], Sequence[Joint]] = list) -> Walk:
-    """Traverse each tree from its root, then detached links; visit a loop once.
-
-    Args:
-        robot: The robot.
-        order: Sorts the child joints of a link.
-    """
+    """Traverse each tree from its root, then detached links; visit a loop once."""
     tree = robot.tree
     seen: set[str] = set()
     found = Walk([], [])

@@ -110,13 +110,7 @@ FAULTS: Mapping[str, str] = MappingProxyType(
 
 
 def judge(item: LinkReview, findings: Sequence[Finding], context: Context) -> None:
-    """Add what rules find, compare written inertia with the geometry, and propose a repair.
-
-    Args:
-        item: Review of a link.
-        findings: About the link, of the purpose ``inertia``.
-        context: Data of the robot.
-    """
+    """Add what rules find, compare written inertia with the geometry, and propose a repair."""
     inertial, written = item.link.inertial, item.written
     if inertial is None or inertial.mass is None:
         return

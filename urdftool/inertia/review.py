@@ -61,13 +61,7 @@ def review(
 
 
 def find_bodies(found: list[LinkReview], meshes: Meshes, source: str | None = None) -> None:
-    """Set the body of each link from one source; all missing meshes are read together.
-
-    Args:
-        found: Reviews of the links.
-        meshes: Cache of mesh bodies.
-        source: As for :func:`review`.
-    """
+    """Set the body of each link from one source; all missing meshes are read together."""
     for name in (source,) if source else SOURCES:
         todo = [
             item

@@ -29,10 +29,6 @@ _EXACT = 2e-15
 def round_properties(properties: SpatialInertia, what: str = "the result") -> SpatialInertia:
     """Round mass properties to numbers that can be written.
 
-    Args:
-        properties: Mass properties.
-        what: Name of the body in error messages.
-
     Raises:
         InertiaError: They are not physically consistent.
     """

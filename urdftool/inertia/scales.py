@@ -25,10 +25,6 @@ class Scales:
     def __call__(self, robot: Robot, names: Sequence[str]) -> dict[str, tuple[float, Any, Any]]:
         """Compute mass [kg], center of mass [m] and tensor [kg·m²] of links, in the link frame.
 
-        Args:
-            robot: The robot, read from a description.
-            names: Names of the links.
-
         Returns:
             Links whose geometry has an unknown volume are missing; empty if the estimate fails.
         """

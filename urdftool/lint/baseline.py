@@ -139,13 +139,7 @@ def compare(outcome: Outcome, baseline: Baseline) -> tuple[Outcome, list[Entry]]
 
 
 def make_baseline(path: str, findings: Iterable[Finding], kept: Mapping[Entry, int]) -> Baseline:
-    """Return a baseline with the present findings.
-
-    Args:
-        path: Path of the file to be written.
-        findings: Present findings.
-        kept: Entries to keep, with their counts.
-    """
+    """Return a baseline with the present findings."""
     counts = Counter(map(Baseline(path).get_entry, findings))
     return Baseline(path, {**kept, **counts})
 

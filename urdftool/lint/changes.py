@@ -21,10 +21,6 @@ _FINDING = ("package.xml", "model.config")  # make a folder a package, which any
 def list_changed_files(folder: str, revision: str) -> set[str]:
     """Return the resolved paths of files that differ from a revision, new and removed ones, too.
 
-    Args:
-        folder: A folder of the repository.
-        revision: A commit, branch or tag.
-
     Raises:
         SourceError: The folder is in no repository, or there is no such revision.
     """

@@ -32,12 +32,7 @@ def find_descriptions(paths: Iterable[str], links: list[str] | None = None) -> l
 
 
 def list_parts(paths: Iterable[str], belonging: Collection[str] = ()) -> list[str]:
-    """Return the ``.xacro`` files below named folders that are not descriptions by their name.
-
-    Args:
-        paths: Files and folders.
-        belonging: Resolved paths of files that are parts even if they are named as robots.
-    """
+    """Return the ``.xacro`` files below named folders that are not descriptions by their name."""
     folders = [path for path in paths if os.path.isdir(path)]
     found = (path for folder in folders for path in list_files(folder, (".xacro",)))
     return [

@@ -33,11 +33,7 @@ NAMES = 5
 
 
 def group_outcome(outcome: Outcome) -> Outcome:
-    """Return a run with grouped findings.
-
-    Args:
-        outcome: The run, without the findings of the baseline.
-    """
+    """Return a run with grouped findings."""
     robots: dict[Any, int] = {}
     for number, report in enumerate(outcome.reports):
         for finding in report.findings:

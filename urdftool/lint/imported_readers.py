@@ -67,10 +67,6 @@ def find_imported_readers(
 ) -> frozenset[str] | None:
     """Find the readers for which a project brings a description, as effects name them.
 
-    Args:
-        description: The description.
-        targets: Its targets, which are readers too.
-
     Returns:
         The readers; None if the code imports none, or an engine that effects do not name, if the
         project is for ROS, where others use its packages, or if it sets the flag of PyBullet that

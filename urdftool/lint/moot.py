@@ -88,12 +88,7 @@ class Rejections:
                 self._by_reader.setdefault(reader, set()).update(_OF_FORMAT)
 
     def add(self, rule: str, keys: Iterable[str]) -> None:
-        """Add the rejections among the effects of a finding.
-
-        Args:
-            rule: Name of the rule.
-            keys: Keys of the effects, with their case.
-        """
+        """Add the rejections among the effects of a finding."""
         known = self._table.get(rule)
         if not known:
             return
@@ -104,11 +99,7 @@ class Rejections:
                     self._by_reader.setdefault(one, set()).add(rule)
 
     def list_rejecting(self, found: Collection[str]) -> dict[str, tuple[str, ...]]:
-        """List the rules that reject the robot, by reader, without readers based on urdfdom.
-
-        Args:
-            found: Rules with findings.
-        """
+        """List the rules that reject the robot, by reader, without readers based on urdfdom."""
         return {
             reader: tuple(sorted(rules & set(found)))
             for reader, rules in sorted(self._by_reader.items())

@@ -84,14 +84,7 @@ class Options:
     def get_key(
         self, cache: Cache, path: str | Path, configuration: Configuration, settings: Settings
     ) -> str:
-        """Return the key of a check in a cache.
-
-        Args:
-            cache: The cache.
-            path: Path of the description.
-            configuration: Its configuration.
-            settings: Settings of the options and the configuration together.
-        """
+        """Return the key of a check in a cache."""
         return cache.get_key(
             path,
             [

@@ -64,12 +64,7 @@ class Transcript:
 
 
 def get_key(code: str, facts: Iterable[object]) -> str:
-    """Return the key of a run: a digest of its inputs that are not files.
-
-    Args:
-        code: Digest of the code.
-        facts: Options, and properties of the terminal.
-    """
+    """Return the key of a run: a digest of its inputs that are not files."""
     known = ["printed", _FORMAT, code, os.getcwd(), *facts]
     return sha256(repr(known).encode("utf-8", "surrogateescape")).hexdigest()
 

@@ -369,14 +369,7 @@ _TELLING = frozenset(tag for tags in APPLIES_TO.values() for tag in tags)
 def _select_rules(
     settings: Settings, targets: frozenset[str], description: Description, name: str
 ) -> list[Rule]:
-    """Return the rules to run, computed once for descriptions with equal tags and targets.
-
-    Args:
-        settings: Settings of the description.
-        targets: Active targets.
-        description: The description.
-        name: Name of its format.
-    """
+    """Return the rules to run, computed once for descriptions with equal tags and targets."""
     known = _collect_tags(description) & _TELLING
     tags = frozenset(known) if name == "urdf" else _TELLING  # others have other tags
     return settings.memo.get((targets, tags), lambda: settings.get_rules(targets, tags))

@@ -64,12 +64,7 @@ class Settings:
         ]
 
     def get_rules(self, targets: frozenset[str], tags: Set[str]) -> list[Rule]:
-        """Return the rules to run.
-
-        Args:
-            targets: Active targets.
-            tags: Tags that occur in the description.
-        """
+        """Return the rules to run."""
         chosen = []
         for name in self.get_names():
             if applies_to(name, tags):
@@ -150,12 +145,7 @@ def check_targets(targets: Iterable[str], path: str | None = None) -> frozenset[
 
 
 def read_settings(file: str | Path, configuration: Configuration, line: Settings) -> Settings:
-    """Return the settings of a file.
-
-    Args:
-        file: Path of the description.
-        configuration: Its configuration.
-        line: Settings of the command line, which have priority.
+    """Return the settings of a file; those of the command line have priority.
 
     Raises:
         ConfigError: The configuration has an unknown rule, option or value.

@@ -15,14 +15,7 @@ from .settings import Settings
 def list_expired_candidates(
     entries: Iterable[Entry], baseline: Baseline, outcome: Outcome, line: Settings
 ) -> list[Entry]:
-    """Return the entries whose file was read or is gone, and whose rule has run or is unknown.
-
-    Args:
-        entries: Entries of the baseline.
-        baseline: The baseline.
-        outcome: The run.
-        line: Rule settings of the command line.
-    """
+    """Return the entries whose file was read or is gone, and whose rule has run or is unknown."""
     checked = [report for report in outcome.reports if report.checked]
     files = {os.path.abspath(path) for report in checked for path in report.files}
     targets = frozenset(name for report in checked for name in report.targets)

@@ -174,11 +174,7 @@ def validate(robot: Robot, purpose: str) -> list[Finding]:
 
 
 def require(robot: Robot, purpose: str) -> Robot:
-    """Return a robot that can be used for a purpose.
-
-    Args:
-        robot: Any robot.
-        purpose: A key of ``PURPOSES``.
+    """Return a robot that can be used for a purpose, a key of ``PURPOSES``.
 
     Raises:
         ModelError: It cannot; the message is that of the first problem, the notes are the others.

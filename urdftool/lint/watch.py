@@ -91,11 +91,7 @@ class Watch:
         return {key: self._noticed[key] for key in known.stamps if key in self._noticed}
 
     def wait(self, sleep: Callable[[float], object] = time.sleep) -> list[str]:
-        """Wait until a file changes; return the changed paths.
-
-        Args:
-            sleep: Waits for a time [s].
-        """
+        """Wait, with ``sleep`` for a time [s], until a file changes; return the changed paths."""
         while True:
             begin = time.monotonic()
             changed = self.list_changed()

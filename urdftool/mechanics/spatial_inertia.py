@@ -75,21 +75,12 @@ class SpatialInertia:
         return SpatialInertia(self.mass, pose.transform(self.com), tensor)
 
     def rotate(self, rotation: Rotation) -> SpatialInertia:
-        """Express the body in a rotated frame of the same origin.
-
-        Args:
-            rotation: As for :func:`tensor.rotate_tensor`.
-        """
+        """Express the body in a rotated frame of the same origin (:func:`tensor.rotate_tensor`)."""
         tensor = rotate_tensor(self.tensor, rotation)
         return SpatialInertia(self.mass, rotate(rotation, self.com), tensor)
 
     def compute_moment_about(self, point: Vector, axis: Vector) -> float:
-        """Compute the moment of inertia [kg·m²] about an axis.
-
-        Args:
-            point: A point of the axis [m].
-            axis: Its direction, of nonzero length.
-        """
+        """Compute the moment of inertia [kg·m²] about an axis."""
         length = compute_norm(axis)
         unit = x, y, z = axis[0] / length, axis[1] / length, axis[2] / length
         a, b, c, d, e, f = self.tensor
@@ -158,12 +149,9 @@ def link_inertia(link: Link) -> SpatialInertia:
 
 
 def combine_links(members: Attached) -> SpatialInertia:
-    """Combine the written mass properties of rigidly attached links.
+    """Combine the written mass properties of rigidly attached links with poses in one frame.
 
     Links without a positive mass are skipped; a missing tensor counts as zero.
-
-    Args:
-        members: Links with their poses in one frame.
 
     Returns:
         The rigid body in that frame.

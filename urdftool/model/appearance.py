@@ -116,13 +116,7 @@ def find_script(element: Element) -> str:
 
 
 def get_appearance(robot: Robot, link: Link, visual: Visual) -> Settings:
-    """Return everything that Gazebo shows of a visual, also what color and texture mean.
-
-    Args:
-        robot: The robot.
-        link: Link of the visual.
-        visual: The visual.
-    """
+    """Return everything that Gazebo shows of a visual, also what color and texture mean."""
     if robot.format == "sdf":
         return visual.appearance
     color = COLORS.get(link.gazebo_material)

@@ -32,10 +32,6 @@ def find_attached_links(robot: Robot, link: Link) -> Attached:
     Fixed joints are followed to parents and children. The link ``world`` is not part of a body;
     bodies fixed to it are not parts of each other.
 
-    Args:
-        robot: Any robot, also an invalid one.
-        link: A link of the robot.
-
     Returns:
         The link itself with the identity, then each rigidly attached link with its pose in the
         frame of ``link``.

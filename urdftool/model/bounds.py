@@ -93,12 +93,7 @@ def compute_bounds(shape: Visual | Collision) -> Bounds | None:
 
 
 def compute_bounds_at(geometry: Geometry | None, pose: Pose) -> Bounds | None:
-    """Return the bounding box of a primitive at a pose; None for other geometry.
-
-    Args:
-        geometry: The geometry.
-        pose: Its pose; the box is in the parent frame [m].
-    """
+    """Return the bounding box [m] of a primitive in its parent frame; None for other geometry."""
     size = compute_size(geometry)
     if size is None:
         return None

@@ -164,10 +164,6 @@ def explain_beyond_limits(robot: Robot, positions: Mapping[str, float]) -> dict[
 def follow_mimic_chain(joint: Joint, movable: Mapping[str, Joint]) -> tuple[str, float, float]:
     """Follow the ``<mimic>`` chain of a joint.
 
-    Args:
-        joint: A joint with one position.
-        movable: All joints with one position, by name.
-
     Returns:
         The name of the leading joint, and the factor and offset [rad, m] that map its position
         to that of ``joint``. A loop ends at the joint where it began.

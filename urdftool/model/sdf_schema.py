@@ -120,12 +120,7 @@ def walk_values(parent: str, element: Element) -> Iterator[tuple[str, Element]]:
 
 
 def find_requirement(parent: str, element: Element) -> Requirement | None:
-    """Return what the content of an element has to be; None if it is valid or not known.
-
-    Args:
-        parent: Tag of the element of SDF that holds it.
-        element: The element.
-    """
+    """Return what the content of an element has to be; None if it is valid or not known."""
     value = _describe(parent, element.tag)
     if not value.kind or element.children:
         return None

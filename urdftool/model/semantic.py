@@ -128,9 +128,6 @@ class SemanticDescription(Part):
 
         MoveIt allows contacts of the links without checks, checks the enabled pairs again, and
         allows the disabled pairs last.
-
-        Args:
-            links: Names of the links of the robot.
         """
         known = {pair.links for pair in (*self.disabled, *self.enabled)}
         pairs = list(self.disabled)

@@ -20,9 +20,6 @@ def add_world(robot: Robot) -> tuple[Robot, Joint | None]:
 
     ``urdfdom`` rejects such a file; Drake and other readers interpret the name as the world.
 
-    Args:
-        robot: Any robot; it is not modified.
-
     Returns:
         The robot with the link, and the first joint whose parent is ``world``; the robot itself and
         None if the link exists or no such joint does.
@@ -40,9 +37,6 @@ def weld_base(robot: Robot) -> Robot:
     """Return the robot with a link ``world`` and a fixed joint, if its source fixes its base.
 
     URDF, and the writers of other formats, express a fixed base by such a link.
-
-    Args:
-        robot: Any robot; it is not modified.
     """
     base = robot.base
     if base is None or base.is_free or WORLD in robot.link or len(robot.tree.roots) != 1:
@@ -82,11 +76,7 @@ def find_model_origin(robot: Robot) -> Origin | None:
 
 
 def add_gazebo_base(robot: Robot) -> Robot:
-    """Return a URDF with the base that it has in Gazebo: free, unless it is static or anchored.
-
-    Args:
-        robot: Any robot; it is not modified.
-    """
+    """Return a URDF with the base that it has in Gazebo: free, unless it is static or anchored."""
     if robot.base is not None:
         return robot
     origin = find_model_origin(robot)

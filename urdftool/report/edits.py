@@ -18,13 +18,7 @@ _UNPROVED = ("text of plugins", "gains of controllers", "recorded data", *NOT_CO
 
 
 def to_json(output: str | None, written: Sequence[Path], edited: Edited) -> str:
-    """Format the result of an operation as one object.
-
-    Args:
-        output: Path of the URDF; None for standard output.
-        written: Paths of the files that were written.
-        edited: The result.
-    """
+    """Format the result of an operation as one object."""
     report = {
         "version": 1,
         "output": output,

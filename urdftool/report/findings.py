@@ -43,13 +43,7 @@ class Painter:
 def format_concise(
     findings: Iterable[Finding], *, colors: bool = False, cut: bool = False
 ) -> Iterator[str]:
-    """Yield ``FILE:LINE:COLUMN: severity: message [rule]`` for each finding.
-
-    Args:
-        findings: The findings.
-        colors: Whether to color the text.
-        cut: Whether to cut lists of names in long messages.
-    """
+    """Yield ``FILE:LINE:COLUMN: severity: message [rule]`` for each finding."""
     paint = Painter(colors)
     for finding in findings:
         yield _format_headline(finding, paint, cut)

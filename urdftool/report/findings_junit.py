@@ -20,12 +20,7 @@ from .findings_words import (
 
 
 def to_junit(outcome: Outcome, fail_on: Severity) -> str:
-    """Format a run; findings below a severity are output of cases that pass.
-
-    Args:
-        outcome: The run.
-        fail_on: Lowest severity that counts as a failure.
-    """
+    """Format a run; findings below a severity are output of cases that pass."""
     by_file: dict[str, dict[str, list[Finding]]] = {r.path: {} for r in outcome.reports}
     for finding in outcome.findings:
         by_rule = by_file.setdefault(finding.location.path, {})

@@ -44,13 +44,7 @@ _Part = tuple[str, str]
 
 
 def format_tree_text(robot: Robot, figure: Figure, *, colors: bool = False) -> str:
-    """Format each root with its subtree, one line for each joint and its link.
-
-    Args:
-        robot: The robot.
-        figure: The robot as a detailed figure.
-        colors: Whether to color the text.
-    """
+    """Format each root with its subtree, one line for each joint and its link."""
     title = [(shorten_name(robot.name) or "no name", "bold")]
     for finding in figure.findings:
         text = f"  {finding.severity.label}: {finding.code}"
@@ -66,12 +60,7 @@ def format_tree_text(robot: Robot, figure: Figure, *, colors: bool = False) -> s
 
 
 def _list_lines(branch: _Branch, lead: str = "") -> Iterator[list[_Part]]:
-    """Yield the lines of a tree of at most ``_DEEPEST`` levels, each with its guides.
-
-    Args:
-        branch: The tree.
-        lead: Guides in front of the lines below the first.
-    """
+    """Yield the lines of a tree of at most ``_DEEPEST`` levels, each with its guides."""
     yield branch.parts
     for number, below in enumerate(branch.below, 1):
         is_last = number == len(branch.below)

@@ -96,13 +96,7 @@ def _format_verdict(item: LinkReview) -> str:
 def format_remarks(
     reviews: Sequence[LinkReview], *, form: str = "urdf", colors: bool = False
 ) -> Iterator[str]:
-    """Yield faults with proposals, notes, and geometry that cannot be read.
-
-    Args:
-        reviews: Reviews of links.
-        form: Format of the source, in whose syntax proposals are written.
-        colors: Whether to use colors.
-    """
+    """Yield faults with proposals, notes, and geometry that cannot be read."""
     paint = Painter(colors)
     links_of_fault: dict[tuple[str, str], list[str]] = {}
     for item in reviews:

@@ -35,10 +35,7 @@ def format_rule_list() -> str:
 
 
 def format_page(name: str) -> str:
-    """Format a rule's page as plain text.
-
-    Args:
-        name: Present or old name of the rule.
+    """Format the page of a rule, by its present or old name, as plain text.
 
     Raises:
         ConfigError: There is no such rule.
@@ -58,9 +55,6 @@ def format_page(name: str) -> str:
 
 def format_pages_as_json(names: Iterable[str]) -> str:
     """Format the pages of rules as one object; the schema is ``docs/schemas/rules.json``.
-
-    Args:
-        names: Present or old names of the rules.
 
     Raises:
         ConfigError: There is no such rule.

@@ -179,12 +179,7 @@ def _format_several(robot: Robot, verdicts: Sequence[Verdict], paint: Painter) -
 
 
 def format_comparison_text(comparison: EngineComparison, *, colors: bool = False) -> str:
-    """Format the values in which two engines differ as a table, with the possible causes.
-
-    Args:
-        comparison: Comparison of two engines.
-        colors: Whether to color it.
-    """
+    """Format the values in which two engines differ as a table, with the possible causes."""
     paint = Painter(colors)
     if not comparison.differences:
         return f"\n{paint('the engines agree', 'green')}\n"

@@ -17,13 +17,7 @@ if TYPE_CHECKING:
 
 
 def format_table(rows: Sequence[Row], *, colors: bool = False, skipped: bool = False) -> str:
-    """Format a line for each robot: whether it stands, when it settled, and its faults.
-
-    Args:
-        rows: Result of each robot.
-        colors: Whether to color the text.
-        skipped: Whether to list skipped robots, too.
-    """
+    """Format a line for each robot: whether it stands, when it settled, and its faults."""
     lines: list[Sequence[Cell]] = []
     for row in rows:
         if skipped or not row.skipped:

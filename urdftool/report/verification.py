@@ -25,12 +25,7 @@ _NAMED = 3
 
 
 def to_json(paths: Sequence[str], agreement: Agreement) -> str:
-    """Format the result as one object.
-
-    Args:
-        paths: Paths of the robots, as given.
-        agreement: The result.
-    """
+    """Format the result as one object."""
     report = {
         "version": 1,
         "files": list(paths),
@@ -74,12 +69,7 @@ def _build_record(entry: Disagreement) -> dict[str, object]:
 
 
 def format_text(paths: Sequence[str], agreement: Agreement) -> str:
-    """Format the result as a table, followed by the differences.
-
-    Args:
-        paths: Paths of the robots, as given.
-        agreement: The result.
-    """
+    """Format the result as a table, followed by the differences."""
     lines = [f"{letter}  {path}" for letter, path in zip(LETTERS, paths, strict=False)]
     text = "\n".join(lines) + "\n\n" + _format_table(agreement)
     entries = agreement.list_disagreements()

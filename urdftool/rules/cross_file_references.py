@@ -91,9 +91,6 @@ _INCLUDE = re.compile(rb"<(?:\w+:)?include\b[^<>]*?filename\s*=\s*[\"']([^\"']*)
 def check_not_included(context: FixContext) -> None:
     """Make sure that no other robot includes the description, and so would get an added element.
 
-    Args:
-        context: The robot and its description.
-
     Raises:
         RefusedError: Another robot includes it.
     """

@@ -305,12 +305,7 @@ def write_suggestion(problem: Problem) -> Proposal | None:
 
 
 def append_number(problem: Problem, taken: Container[str | None]) -> Proposal | None:
-    """Append a number to the name that a problem points at.
-
-    Args:
-        problem: The problem.
-        taken: Names in use.
-    """
+    """Append a number to the name that a problem points at."""
     found = find_attribute(problem)
     if found is None:
         return None
@@ -338,14 +333,7 @@ def is_close_enough(right: str, wrong: str) -> bool:
 def write_inside(
     finding: Finding, old: str, new: str, *, harmless: bool = False
 ) -> Proposal | None:
-    """Replace a word that occurs once in the bytes of a finding's place.
-
-    Args:
-        finding: The finding.
-        old: Text to replace.
-        new: Text to write.
-        harmless: Whether the fix is safe.
-    """
+    """Replace a word that occurs once in the bytes of a finding's place."""
     place, file = finding.location, finding.location.file
     written = file.data[place.start : place.end]
     if written.count(old.encode()) != 1:

@@ -104,11 +104,7 @@ def find_old_rules(selectors: Iterable[str]) -> Iterator[OldName]:
 
 
 def find_old_names(table: Mapping[str, Any]) -> Iterator[OldName]:
-    """Find the old names of rules and thresholds in a ``lint`` table.
-
-    Args:
-        table: The table as written; invalid values are ignored.
-    """
+    """Find old names of rules and thresholds in a ``lint`` table; invalid values are ignored."""
     for key, value in table.items():
         yield from find_old_rules([key])
         if key in ("select", "extend-select", "ignore"):

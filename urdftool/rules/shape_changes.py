@@ -18,10 +18,6 @@ from .fix import (
 def copy_shape(shape: Visual | Collision, tag: str) -> Change | None:
     """Add an element with the origin and geometry of a shape after it.
 
-    Args:
-        shape: The shape.
-        tag: ``visual`` or ``collision``.
-
     Returns:
         None if the geometry is missing, or not written inside the shape.
     """

@@ -16,13 +16,7 @@ FIX_ALL = "source.fixAll.urdftool"
 
 
 def serve(settings: ServerSettings, stdin: BinaryIO, stdout: AnswerStream) -> None:
-    """Serve one editor until it ends.
-
-    Args:
-        settings: Settings of the command line.
-        stdin: Stream of its messages.
-        stdout: Stream of the answers.
-    """
+    """Serve one editor until it ends."""
     server = RobotServer(settings)
     add_features(server)
     server.start_io(stdin, cast("BinaryIO", stdout))

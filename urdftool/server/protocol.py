@@ -259,11 +259,7 @@ class RobotServer(LanguageServer):
         }
 
     def make_workspace_edit(self, edits: Mapping[str, list[dict[str, Any]]]) -> lsp.WorkspaceEdit:
-        """Return edits by path as an edit of documents with their versions, where they are known.
-
-        Args:
-            edits: Edits by path of the document.
-        """
+        """Return edits by path as an edit of documents, with the versions that are known."""
         made = {
             path: self.converter.structure(some, list[lsp.TextEdit]) for path, some in edits.items()
         }

@@ -56,14 +56,7 @@ def link_poses(run: Run, poses: Array) -> dict[str, Pose]:
 def render_final_state(
     run: Run, shapes: Shapes, *, camera: Camera | None = None, size: tuple[int, int] = SIZE
 ) -> Image:
-    """Draw the robot on the plane at the end of a run.
-
-    Args:
-        run: A run.
-        shapes: Shapes of the robot.
-        camera: Camera.
-        size: Width and height in pixels.
-    """
+    """Draw the robot on the plane at the end of a run."""
     last = run.recording.poses[_find_finite(run.recording)[-1]]
     return draw(
         shapes, link_poses(run, last), camera=camera, size=size, ground=_get_floor(run, last)

@@ -16,10 +16,5 @@ _NAMES = {
 
 
 def name_element(robot: Robot, urdf: str) -> str:
-    """Return the name of an element in the format of the robot.
-
-    Args:
-        robot: The robot.
-        urdf: Name in URDF, such as ``<collision>``.
-    """
+    """Return the name of an element in the format of the robot."""
     return _NAMES.get(robot.format, {}).get(urdf, urdf)

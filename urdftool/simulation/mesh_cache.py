@@ -42,12 +42,6 @@ def get_cached_hulls(
 ) -> list[Cloud]:
     """Return the cached result for a mesh, also of an earlier run, or compute it.
 
-    Args:
-        robot: The robot.
-        geometry: The mesh.
-        what: Name of the result.
-        make: Computes the result.
-
     Raises:
         UrdftoolError: The mesh is not found, or ``make`` failed.
     """

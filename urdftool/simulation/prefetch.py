@@ -20,10 +20,6 @@ def prefetch(robot: Robot, precompute: Callable[[T], object]) -> Iterator[Callab
 
     Errors are ignored: the check that needs the result computes it again, and reports them.
 
-    Args:
-        robot: The robot, read from a description.
-        precompute: Receives the first message.
-
     Yields:
         Function that passes the message, once. The thread has ended at the end of the ``with``
         statement, unless that raised an error.

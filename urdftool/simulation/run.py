@@ -80,10 +80,6 @@ class Run:
     ) -> tuple[float, float, float] | None:
         """Compute the center of mass of bodies in the world [m], of the mass with gravity.
 
-        Args:
-            numbers: Indices of the bodies.
-            sample: Index of a sample of the recording.
-
         Returns:
             None if they have no mass, or a pose is not finite.
         """

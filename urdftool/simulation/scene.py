@@ -15,9 +15,6 @@ def take_robot(robot: Robot) -> tuple[Robot, list[str]]:
     Planes of the world are left out, since the simulation has its own ground. If several parts
     move freely, or one in addition to parts at the world, the one with most joints is the robot.
     So is the largest part of a URDF that floating joints divide.
-
-    Args:
-        robot: Any robot; it is not modified.
     """
     tree = robot.tree
     if robot.xml is not None:

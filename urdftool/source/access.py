@@ -46,10 +46,6 @@ def _is_model(folder: Path, files: Workspace) -> bool:
 def require_companion(mesh: Path, path: Path) -> Path:
     """Check a file that a mesh file refers to: it is in the project of the mesh.
 
-    Args:
-        mesh: The mesh file, which may be read.
-        path: The other file.
-
     Returns:
         The other file.
 
@@ -70,12 +66,7 @@ def require_companion(mesh: Path, path: Path) -> Path:
 
 
 def list_companions(mesh: Path, pattern: str) -> list[Path]:
-    """Return the files in the folder of a mesh file that match a pattern and that it may refer to.
-
-    Args:
-        mesh: The mesh file.
-        pattern: Name with wildcards.
-    """
+    """Return files in the folder of a mesh that match a pattern and to which the mesh may refer."""
     files = Workspace()
     companions = files.list_matches(mesh.parent, pattern)
     return [path for path in companions if files.is_file(path) and is_companion_allowed(mesh, path)]
@@ -166,10 +157,6 @@ class FileAccess:
 
     def check(self, path: str | Path, at: Place | None = None) -> None:
         """Check that the description may read a file, which need not exist.
-
-        Args:
-            path: The file.
-            at: Location of the reference, if known.
 
         Raises:
             AccessError: It may not, or the file is a device or a pipe.

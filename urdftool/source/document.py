@@ -149,10 +149,6 @@ class Document:
 def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFile:
     """Read a file, or standard input for ``-``.
 
-    Args:
-        path: Path of the file.
-        workspace: Access to files; None creates a new one.
-
     Raises:
         AccessError: The workspace may not read it.
         SourceError: It is missing, a folder, unreadable, empty or larger than ``MAX_BYTES``, or

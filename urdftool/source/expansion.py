@@ -157,12 +157,7 @@ def _make_tree(nodes: Iterable[ExpandedNode]) -> XacroDocument:
 
 
 def write_xml(document: XacroDocument, banner: list[str]) -> str:
-    """Return the text of an expanded tree in the format of xacro.
-
-    Args:
-        document: The tree.
-        banner: Comments to write before it.
-    """
+    """Return the text of an expanded tree in the format of xacro."""
     parts = ['<?xml version="1.0" ?>\n']
     parts.extend(f"<!--{line}-->\n" for line in banner)
     for node in document.childNodes:

@@ -43,10 +43,7 @@ class Channel:
             rest = rest[os.write(self._target, rest) :]
 
     def receive(self, most: int = sys.maxsize) -> tuple[Any, bytes]:
-        """Return the next value.
-
-        Args:
-            most: Maximum size [bytes].
+        """Return the next value, of at most ``most`` bytes.
 
         Raises:
             Ended: The other end is closed, or sent more than ``most``.

@@ -98,11 +98,6 @@ class LastExpansion:
     def finish(self, prepared: Prepared, used: Any, texts: Any) -> None:
         """Remove the answers that an expansion did not use, and store its expressions.
 
-        Args:
-            prepared: What the expansion had.
-            used: Indices of the answers that it used.
-            texts: Expressions that it compiled.
-
         Raises:
             TypeError, LookupError: A value is not as expected.
         """

@@ -35,11 +35,6 @@ STAGE_HEADS = (b"#usda", b"PXR-USDC", b"PK\x03\x04")
 def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> None:
     """Parse a file with an expat parser and the common checks.
 
-    Args:
-        parser: Parser with its handlers set.
-        file: The file.
-        stack: Open elements, maintained by the handlers.
-
     Raises:
         XmlError: The file is not well-formed, declares entities, or cannot be decoded.
     """

@@ -29,11 +29,7 @@ class LookupRecorder:
     """
 
     def __init__(self, get_node: Callable[[], XacroElement | None]) -> None:
-        """Create an empty record.
-
-        Args:
-            get_node: Returns the element that xacro processes.
-        """
+        """Create an empty record."""
         self.found: dict[tuple[_Site, LookupKind, str], dict[_Site, None]] = {}
         self._get_node = get_node
         self._askers: list[_Site] = []

@@ -23,10 +23,6 @@ from .xacro_tree import (
 def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument:
     """Parse a file into the tree on which xacro works.
 
-    Args:
-        file: The file.
-        calls: Includes that lead to the file.
-
     Raises:
         XmlError: It is not well-formed, uses an undeclared prefix, declares entities, or is
             nested too deeply.

@@ -24,9 +24,6 @@ _LONGEST = 60  # characters of a name in a message; chosen
 def check_writable(nodes: Sequence[ExpandedNode]) -> None:
     """Check that a tree, written as XML, is read again as the same tree.
 
-    Args:
-        nodes: Its nodes, of which one is the root element.
-
     Raises:
         XacroError: A value has a character that XML does not allow, a comment contains ``--``, or a
             name is not a name of XML or has an undeclared prefix; with the place of the element.

@@ -24,10 +24,6 @@ def find_adjacent_pairs(robot: Robot, shaped: Iterable[str]) -> set[frozenset[st
     It may be a chain of joints through links without geometry, if at most one of them moves, or if
     all are revolute and each two of their axes meet, as in a universal joint. A joint that closes
     a loop counts, too.
-
-    Args:
-        robot: Robot.
-        shaped: Names of the links with geometry.
     """
     names = set(shaped)
     pairs = {

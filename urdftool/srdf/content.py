@@ -20,11 +20,6 @@ def make_semantic(
 ) -> SemanticDescription:
     """Make the semantic description of a robot: groups, states, pairs that need no check.
 
-    Args:
-        robot: Robot.
-        verdicts: Verdicts on its pairs.
-        given: Groups that the user asks for.
-
     Raises:
         ConfigError: A given group is not a chain of the robot.
     """

@@ -30,12 +30,7 @@ def guess_kind(chain: KinematicChain) -> str:
 
 
 def guess_chain_name(chain: KinematicChain, kind: str) -> str:
-    """Guess the name of a chain's group: its kind, after what the names of its joints share.
-
-    Args:
-        chain: The chain.
-        kind: What it is.
-    """
+    """Guess the name of a chain's group: its kind, after what the names of its joints share."""
     prefix = find_common_prefix([joint.name for joint in chain.joints])
     if kind in ("torso", "head") or not prefix:
         return _add_side(kind, chain.joints)

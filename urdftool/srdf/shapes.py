@@ -81,14 +81,7 @@ class LinkShape:
 def read_shapes(
     robot: Robot, link: str, *, visual: bool = False, pieces: int = PIECES
 ) -> LinkShape:
-    """Read the shapes of a link; a mesh that cannot be read is the problem of the result.
-
-    Args:
-        robot: Robot.
-        link: Name of the link.
-        visual: Whether to read the visual geometry.
-        pieces: Convex pieces of all meshes of the link.
-    """
+    """Read the shapes of a link; a mesh that cannot be read is the problem of the result."""
     part = robot.link[link]
     shapes: Sequence[Collision | Visual] = part.visuals if visual else part.collisions
     found: list[Piece] = []

@@ -22,11 +22,6 @@ def make_chain_states(robot: Robot, group: str, joints: Sequence[Joint]) -> Iter
     The state is ``zero`` if all joints may be at 0; else it is ``default``, where a joint that may
     not be at 0 is at the middle of its range, as in MoveIt. ``home`` has the initial values of
     ros2_control, if these are others. Joints with crossed limits have no state.
-
-    Args:
-        robot: The robot.
-        group: Name of the group.
-        joints: Its active joints.
     """
     values = {joint.name: get_default_position(robot, joint) for joint in joints}
     positions = {name: value for name, value in values.items() if value is not None}

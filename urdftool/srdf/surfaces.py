@@ -30,11 +30,6 @@ class Surface:
 def read_surfaces(robot: Robot, link: str, pose: Pose) -> list[Surface]:
     """Read the collisions of a link.
 
-    Args:
-        robot: Robot.
-        link: Name of the link.
-        pose: Pose of the link in the frame of the result.
-
     Raises:
         UrdftoolError: A mesh cannot be read, or a shape is not bounded.
     """

@@ -47,10 +47,6 @@ def update(content: SemanticDescription, judgements: Iterable[Judgement]) -> Upd
 
     Pairs with the reason ``User``, ``Default`` or ``Always``, or with a comment of the user on
     their line, stay. An element of a macro is removed only if none of its expansions stays.
-
-    Args:
-        content: Content of the file.
-        judgements: What is known of the pairs, by :func:`.existing.judge`.
     """
     file = content.element.file
     source = edit.parse_source(file)

@@ -61,13 +61,7 @@ def format_table(rows: Iterable[Row]) -> str:
 
 
 def link_rows(robot: Robot, link: Link, pose: Pose | None = None) -> Iterator[Row]:
-    """Yield the properties of a link.
-
-    Args:
-        robot: The robot.
-        link: The link.
-        pose: Current pose of the link in the root frame.
-    """
+    """Yield the properties of a link."""
     joint = robot.tree.get_parent_joint(link.name)
     below = robot.tree.get_child_joints(link.name)
     if joint is None:

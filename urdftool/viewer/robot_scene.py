@@ -127,9 +127,6 @@ class RobotScene:
     def measure(self, poses: Mapping[str, Pose]) -> tuple[Vector, Vector]:
         """Compute the bounding box of the loaded geometry and the link frames [m].
 
-        Args:
-            poses: Poses of the links, by name.
-
         Returns:
             Lower and upper corner. ``size`` becomes the length of the diagonal.
         """
@@ -168,12 +165,7 @@ class RobotScene:
                 node.opacity = min(before or 1.0, CLEAR) if transparent else before
 
     def mark(self, findings: Mapping[str, list[Finding]], shown: Iterable[str]) -> None:
-        """Mark each link with its findings.
-
-        Args:
-            findings: Findings by link.
-            shown: Visible kinds, of ``"errors"`` and ``"warnings"``.
-        """
+        """Mark each link with its findings."""
         self._findings = findings
         for kind in ("errors", "warnings"):
             for _, node in self._nodes.pop(kind, []):

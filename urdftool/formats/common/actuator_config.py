@@ -83,9 +83,6 @@ class ActuatorConfig:
     def match_joints(self, joints: Iterable[str]) -> dict[str, JointSettings]:
         """Choose the settings of each joint.
 
-        Args:
-            joints: Names of the movable joints.
-
         Raises:
             ConfigError: A name or pattern of the file matches no joint.
         """

@@ -27,12 +27,7 @@ def get_robot_origin(robot: Robot) -> Origin | None:
 
 
 def compute_level_poses(robot: Robot, positions: Mapping[str, float]) -> dict[str, Pose]:
-    """Compute the poses of the links in a frame at the root that is turned as the world.
-
-    Args:
-        robot: The robot.
-        positions: Joint positions [rad, m].
-    """
+    """Compute the poses of the links in a frame at the root that is turned as the world."""
     poses = link_poses(robot, positions)
     origin = get_robot_origin(robot)
     if origin is None or not any(origin.rpy):

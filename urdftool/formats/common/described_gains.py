@@ -32,11 +32,6 @@ def choose_joint_settings(
 ) -> dict[str, JointSettings]:
     """Choose the settings of joints, by name: those of the user, then those of the description.
 
-    Args:
-        robot: The robot.
-        names: Names of the joints that move.
-        config: An actuator file, or None.
-
     Raises:
         ConfigError: The file cannot be read, or has settings for a joint that does not move.
     """

@@ -41,12 +41,7 @@ def mark(xml: bytes, source: str) -> bytes:
 
 
 def mark_usda(text: bytes, source: str) -> bytes:
-    """Return a layer of USD as text with the mark after its first line.
-
-    Args:
-        text: The layer.
-        source: Name of the source description.
-    """
+    """Return a layer of USD as text with the mark after its first line."""
     head, _, rest = text.partition(b"\n")
     return head + f"\n# {_format_sentence(rest, source)}\n".encode() + rest
 

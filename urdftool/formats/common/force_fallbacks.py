@@ -34,11 +34,7 @@ REPORTED_AS = {"mesh-not-found": "lossy-mesh"}
 
 
 def drop_invalid_parts(robot: Robot) -> Robot:
-    """Drop links and joints that nothing can refer to, and joints that refer to nothing.
-
-    Args:
-        robot: A robot, which stays as it is.
-    """
+    """Drop links and joints that nothing can refer to, and joints that refer to nothing."""
     robot, _ = add_world(robot)
     links: dict[str, Link] = {}
     for link in robot.links:
@@ -72,12 +68,7 @@ def report_tree_defects(robot: Robot, left: Robot, forced: bool) -> Iterator[Fin
 
 
 def report_passed_defects(written: Written, found: Iterable[Finding]) -> None:
-    """Report the defects that ``--force`` passed and the writer did not, each with its fallback.
-
-    Args:
-        written: The export.
-        found: The defects.
-    """
+    """Report the defects that ``--force`` passed and the writer did not, each with its fallback."""
     for finding in found:
         if _is_reported(written, finding):
             continue

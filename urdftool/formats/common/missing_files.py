@@ -28,12 +28,7 @@ class MissingFile(NamedTuple):
 
 
 def explain_missing_file(robot: Robot, filename: str) -> MissingFile:
-    """Determine why a file cannot be read.
-
-    Args:
-        robot: The robot that refers to it.
-        filename: The URI or path as written.
-    """
+    """Determine why a file cannot be read."""
     if not filename or robot.source is None:
         return MissingFile("names no file")
     try:
@@ -54,13 +49,7 @@ def explain_missing_file(robot: Robot, filename: str) -> MissingFile:
 
 
 def create_missing_mesh(robot: Robot, link: Link, mesh: Mesh) -> Finding:
-    """Create the finding for a mesh file that does not exist.
-
-    Args:
-        robot: The robot.
-        link: The link that has the mesh.
-        mesh: The mesh.
-    """
+    """Create the finding for a mesh file that does not exist."""
     missing = explain_missing_file(robot, mesh.filename)
     return make_defect(
         "mesh-not-found",

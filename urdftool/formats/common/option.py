@@ -57,12 +57,7 @@ class Option:
 
 
 def declare(help: str, **details: Any) -> Mapping[str, Any]:
-    """Return the metadata of a field of a dataclass that declares an option.
-
-    Args:
-        help: Description.
-        details: Other attributes of :class:`Option`.
-    """
+    """Return the metadata of a field of a dataclass that declares an :class:`Option`."""
     return {_KEY: Option(help, **details)}
 
 

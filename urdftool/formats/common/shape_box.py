@@ -39,10 +39,6 @@ class ShapeBoxes:
     def compute_box(self, shape: Visual | Collision, frame: Pose) -> Bounds | None:
         """Compute the bounding box of a shape.
 
-        Args:
-            shape: A shape of a link.
-            frame: Pose of the link.
-
         Returns:
             The box along the axes of the frame's parent, exact except for meshes of more than
             50,000 points; None if the shape has no size or its mesh cannot be read.

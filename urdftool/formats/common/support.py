@@ -30,12 +30,6 @@ def list_contact_points(
 ) -> Array:
     """List the points with which a rigid body touches the ground below it.
 
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        body: Topmost link of the rigid body.
-        poses: Poses of the links.
-
     Returns:
         Points [m] of shape (n, 3), within ``CONTACT`` above the lowest.
     """

@@ -165,12 +165,7 @@ def _is_dropped(row: Setting, shown: Settings) -> bool:
 
 
 def report_looks(robot: Robot, written: Written) -> None:
-    """Report scripts of Gazebo that color visuals, and what of visuals is not a color or image.
-
-    Args:
-        robot: The source.
-        written: The export, which receives the losses.
-    """
+    """Report scripts of Gazebo that color visuals, and what of visuals is not a color or image."""
     _report_appearance(robot, written)
     for link in robot.links:
         scripts: set[str] = set()

@@ -21,12 +21,6 @@ def check_unwritten(
 ) -> list[Check]:
     """Compile a copy of an export if MuJoCo is installed, and compare it with its source.
 
-    Args:
-        robot: The source.
-        options: Options of the export.
-        written: The export.
-        verify: Whether to compare the copy; otherwise it is only compiled.
-
     Raises:
         OutputError: MuJoCo does not compile it.
         MissingDependency: MuJoCo is not installed, and ``verify`` is set.

@@ -20,13 +20,7 @@ from .structure import Structure
 def plan_exclusions(
     structure: Structure, disabled: Iterable[tuple[str, str]], exclude: Exclude
 ) -> list[ContactExclusion]:
-    """List the pairs of links that must be excluded from contact.
-
-    Args:
-        structure: The kinematic tree.
-        disabled: Pairs that an SRDF disables.
-        exclude: Which pairs the user excludes.
-    """
+    """List the pairs of links that must be excluded from contact."""
     given = [(pair.link, pair.other) for pair in structure.robot.exclusions]
     joined = []
     if exclude != "none" and structure.robot.format != "mjcf":  # which has its own pairs

@@ -150,12 +150,7 @@ def add_joint_classes(
 
 
 def add_foot_class(collision: etree._Element, world: etree._Element) -> None:
-    """Create the class ``foot`` for the collision geoms of feet, for users to set their contact.
-
-    Args:
-        collision: ``<default>`` of the class ``collision``, which receives the class.
-        world: ``<worldbody>``, whose geoms are modified.
-    """
+    """Create the class ``foot`` for the collision geoms of feet, for users to set their contact."""
     feet = [
         geom
         for geom in world.iter("geom")

@@ -25,12 +25,7 @@ ATTRIBUTES = (
 
 
 def assemble(model: str, sections: dict[str, etree._Element]) -> bytes:
-    """Serialize a model.
-
-    Args:
-        model: Name of the model.
-        sections: Sections by element name.
-    """
+    """Serialize a model."""
     root = etree.Element("mujoco", model=model)
     for name in ORDER:
         section = sections.get(name)

@@ -124,12 +124,7 @@ def set_foot_contact(link: Link, feet: Set[str]) -> Link:
 
 
 def list_joint_sensors(structure: Structure, driven: Set[str]) -> Iterator[MountedSensor]:
-    """Yield sensors of position, velocity and actuator force that no joint of the source has.
-
-    Args:
-        structure: The kinematic tree.
-        driven: Joints with actuators.
-    """
+    """Yield sensors of position, velocity and actuator force that no joint of the source has."""
     there = {(sensor.type, sensor.joint) for sensor in structure.robot.mounted_sensors}
     for tag, suffix in (*JOINT_KINDS, DRIVEN_KIND):
         for joint in structure.moving:

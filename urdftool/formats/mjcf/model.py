@@ -202,12 +202,7 @@ PLAIN: dict[tuple[float, ...], str] = {
 
 
 def create_share_colors(world: etree._Element, materials: list[etree._Element]) -> None:
-    """Create a material for each color of two or more visual geoms.
-
-    Args:
-        world: ``<worldbody>``, whose geoms are modified.
-        materials: Elements of ``<asset>``, to which the materials are appended.
-    """
+    """Create a material for each color of two or more visual geoms."""
     geoms = [g for g in world.iter("geom") if g.get("class") == "visual" and g.get("rgba")]
     counts = Counter(geom.get("rgba", "") for geom in geoms)
     names = UniqueNames(tuple(m.get("name", "") for m in materials if m.tag == "material"))

@@ -118,11 +118,6 @@ def _normalize(path: str) -> str:
 def read_assets(paths: dict[str, str], folder: str, workspace: Workspace) -> dict[str, bytes]:
     """Read files.
 
-    Args:
-        paths: Paths by new name.
-        folder: Folder to which they are relative.
-        workspace: Access to files.
-
     Raises:
         SourceError: One cannot be read; ``data`` has its new ``name``.
     """

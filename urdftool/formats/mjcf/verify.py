@@ -141,12 +141,7 @@ def verify(
 
 
 def _make_expected(source: Robot, planned: Robot) -> Robot:
-    """Return the robot that the file must hold: the source with the choices of the export.
-
-    Args:
-        source: The robot as its description defines it.
-        planned: The robot that a second export writes.
-    """
+    """Return the robot that the file must hold: the source with the choices of the export."""
     source = resolve_materials(source)
     kept = {one.name for one in planned.configurations}
     return replace(

@@ -42,11 +42,7 @@ MAX_DEPTH = 490
 
 
 def write(robot: Robot, options: Options | None = None) -> Written:
-    """Convert a robot to MJCF.
-
-    Args:
-        robot: The robot.
-        options: Options of the export; None for the defaults of the command line.
+    """Convert a robot to MJCF, without options with the defaults of the command line.
 
     Returns:
         The model, its meshes and its scene, with every loss.

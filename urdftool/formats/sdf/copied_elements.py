@@ -37,12 +37,6 @@ def copy_raw_element(
 ) -> Node | None:
     """Copy an element of a block if SDF defines it, otherwise keep it as a comment.
 
-    Args:
-        node: Target link, joint or model.
-        t: The export.
-        element: The element.
-        about: Link or joint that the block refers to.
-
     Returns:
         The copy; None if the element is not valid SDF.
     """

@@ -11,12 +11,7 @@ _NUMBERS = ("mean", "stddev", "bias_mean", "bias_stddev")
 
 
 def write_imu_noise(made: Node, sensor: Element) -> None:
-    """Write the values of ``imu/noise`` for each axis.
-
-    Args:
-        made: The exported sensor.
-        sensor: The sensor in the source.
-    """
+    """Write the values of ``imu/noise`` for each axis."""
     imu = sensor.find_child("imu")
     noise = imu.find_child("noise") if imu is not None else None
     holder = made.find("imu")

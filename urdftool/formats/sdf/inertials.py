@@ -139,10 +139,6 @@ CLEAR = 1e-6
 def repair_inertia(t: Translation, name: str) -> tuple[SymmetricTensor, str]:
     """Repair the inertia tensor of a body.
 
-    Args:
-        t: The export.
-        name: The link that owns the body.
-
     Returns:
         The tensor about the center of mass, along the axes of the link [kg·m²], and a description
         of the method for a message.

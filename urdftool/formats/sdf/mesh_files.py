@@ -169,12 +169,7 @@ TEXTURES = "materials/textures"
 
 
 def choose_picture_names(robot: str, pictures: list[Path]) -> dict[Path, str]:
-    """Choose a file name for each texture; Ogre shares one namespace among all models.
-
-    Args:
-        robot: Name of the model, the prefix of every name.
-        pictures: Paths of the textures.
-    """
+    """Choose a file name for each texture; Ogre shares one namespace among all models."""
     names: dict[Path, str] = {}
     for path in pictures:
         stem, suffix = replace_quoted(f"{robot}_{path.stem}"), path.suffix.lower()

@@ -24,12 +24,7 @@ _OF_GAZEBO = "file://media/"
 
 
 def read_material(robot: Robot, holder: Element) -> tuple[Material | None, str]:
-    """Return the material of a visual, and the name of its script if that is not known.
-
-    Args:
-        robot: The robot, whose source finds files.
-        holder: The ``<visual>``.
-    """
+    """Return the material of a visual, and the name of its script if that is not known."""
     element = holder.find_child("material")
     if element is None:
         return None, ""

@@ -43,11 +43,7 @@ NAMES_FILE = "names.json"
 
 
 def write(robot: Robot, options: Options | None = None) -> Written:
-    """Convert a robot to SDF.
-
-    Args:
-        robot: The robot.
-        options: Options of the export; None for the defaults of gz.
+    """Convert a robot to SDF, without options with the defaults of gz.
 
     Raises:
         Refused: The robot has defects that prevent the export; the error lists them.
@@ -132,12 +128,7 @@ def _report_names(t: Translation) -> None:
 
 
 def write_config(name: str, options: Options) -> bytes:
-    """Write the file.
-
-    Args:
-        name: Name of the model.
-        options: Options of the export.
-    """
+    """Write the file."""
     root = etree.Element("model")
     add(root, "name", name)
     add(root, "version", "1.0")

@@ -35,13 +35,7 @@ def get_or_create(parent: Node, path: str) -> Node:
 
 
 def append_copy(parent: Node, element: Element, tag: str | None = None) -> Node:
-    """Append a copy of a source element with all its children.
-
-    Args:
-        parent: Target element.
-        element: Element of the source.
-        tag: New tag; None keeps the tag.
-    """
+    """Append a copy of a source element with all its children, with another tag if given."""
     node = etree.SubElement(
         parent, tag or _name(element, element.tag), nsmap=_collect_prefixes(element)
     )

@@ -45,10 +45,6 @@ from .trees import take_tree
 def write(robot: Robot, options: Options | None = None) -> Written:
     """Convert a robot to URDF.
 
-    Args:
-        robot: The robot.
-        options: Options of the export; None for the defaults.
-
     Raises:
         Refused: The robot has defects that prevent the export; the error lists them.
     """

@@ -20,12 +20,6 @@ def check_unwritten(
 ) -> list[Check]:
     """Compare a copy of an export with its source.
 
-    Args:
-        robot: The source.
-        options: Options of the export.
-        written: The export.
-        verify: Whether to compare the copy.
-
     Raises:
         OutputError: OpenUSD does not open it.
     """

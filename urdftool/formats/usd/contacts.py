@@ -74,13 +74,7 @@ def list_overlaps(
 def write_pairs(
     links: LinkWriter, pairs: Iterable[ContactExclusion], proofs: Mapping[frozenset[str], str]
 ) -> None:
-    """Write pairs of bodies that never collide, each at the first of its names.
-
-    Args:
-        links: Writer of the links.
-        pairs: The pairs.
-        proofs: Texts for custom data, by the names of both links.
-    """
+    """Write pairs of bodies that never collide, each at the first of its names."""
     found: dict[str, set[str]] = {}
     for pair in pairs:
         found.setdefault(pair.link, set()).add(pair.other)

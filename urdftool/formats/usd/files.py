@@ -40,14 +40,7 @@ def check_replaced(path: Path) -> None:
 def make_single_file(
     builder: StageBuilder, name: str, source: str, images: Mapping[str, Content]
 ) -> dict[str, Content]:
-    """Return the files of a stage of one layer, by path.
-
-    Args:
-        builder: The stage.
-        name: Name of the file; its suffix is the form.
-        source: Name of the source description.
-        images: Images by path relative to the layer.
-    """
+    """Return the files of a stage of one layer, by path; the suffix of the name is the form."""
     suffix = Path(name).suffix.lower()
     if suffix == ".usda":
         return {name: encode_text(builder.base, source), **images}

@@ -52,10 +52,6 @@ def list_single_joints(bodies: Bodies) -> list[Joint]:
 def read_joint_settings(bodies: Bodies, config: Path | None) -> dict[str, JointSettings]:
     """Read the settings of each joint with one degree of freedom, by name.
 
-    Args:
-        bodies: Bodies of the robot.
-        config: An actuator file, or None.
-
     Raises:
         ConfigError: The file is not valid, or has settings for a joint that does not move.
     """

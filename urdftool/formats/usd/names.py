@@ -43,12 +43,7 @@ class Names:
 
 
 def make_names(robot: Robot, name: str) -> Names:
-    """Choose the prim names of a robot; names that are valid stay.
-
-    Args:
-        robot: The robot.
-        name: Name of the robot.
-    """
+    """Choose the prim names of a robot; names that are valid stay."""
     return Names(
         make_identifier(name, "robot"),
         _make_unique([link.name for link in robot.links], RESERVED),

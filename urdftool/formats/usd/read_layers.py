@@ -44,12 +44,7 @@ class LayerFiles:
     """Files of layers, each checked before OpenUSD opens it."""
 
     def __init__(self, workspace: Workspace, place: Place) -> None:
-        """Create it without files.
-
-        Args:
-            workspace: Access to files.
-            place: Location of errors.
-        """
+        """Create it without files."""
         self._workspace, self._place = workspace, place
         self._paths: set[str] = set()
         self._total = 0

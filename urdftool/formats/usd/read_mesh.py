@@ -48,25 +48,14 @@ class MeshFolder:
     """Folder of the meshes and images of stages; files are named by prim and content."""
 
     def __init__(self, folder: Path, place: Place) -> None:
-        """Store the path; the folder is created with the first file.
-
-        Args:
-            folder: The folder.
-            place: Location of errors.
-        """
+        """Store the path; the folder is created with the first file."""
         self._folder, self._place = folder, place
         self._size = 0
         self._new: list[Path] = []
         self._known: dict[str, str] = {}
 
     def store(self, triangles: Triangles, name: str, *, textured: bool) -> str:
-        """Write triangles, and return the path of the file.
-
-        Args:
-            triangles: The triangles.
-            name: Start of the file name.
-            textured: Whether the file has texture coordinates.
-        """
+        """Write triangles, and return the path of the file."""
         uv = triangles.coordinates
         if textured and uv is not None:
             content, suffix = _format_obj(triangles.corners, uv), ".obj"

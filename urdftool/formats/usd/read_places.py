@@ -31,12 +31,6 @@ class Layers:
     ) -> None:
         """Store the stage; layers are read on demand.
 
-        Args:
-            stage: The stage.
-            file: The file of its root layer.
-            files: The files that were checked.
-            workspace: Access to files.
-
         Raises:
             SourceError: A layer was not checked.
         """

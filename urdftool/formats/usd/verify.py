@@ -75,12 +75,7 @@ def verify_copy(
 
 
 def make_expected(source: Robot, planned: Robot) -> Robot:
-    """Return the robot that the stage must hold: the source with the choices of the export.
-
-    Args:
-        source: The robot as its description defines it.
-        planned: The robot that the export writes.
-    """
+    """Return the robot that the stage must hold: the source with the choices of the export."""
     source = resolve_materials(source)
     return replace(
         source,

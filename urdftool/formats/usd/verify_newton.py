@@ -47,13 +47,7 @@ _UNLIMITED = 1e9
 
 
 def compare_newton(robot: Robot, losses: DeclaredLosses, path: Path) -> list[Check]:
-    """Import a stage with Newton in a process of its own, and compare it with the source.
-
-    Args:
-        robot: The robot that the stage must hold.
-        losses: What the export reported.
-        path: Path of the stage.
-    """
+    """Import a stage with Newton in a process of its own, and compare it with the source."""
     source = make_source(robot, losses, path)
     links, joints = _read_names(path)
     paths = {name: label for label, name in joints.items()}

@@ -56,13 +56,7 @@ class Source:
 
 
 def make_source(robot: Robot, losses: DeclaredLosses, path: Path) -> Source:
-    """Return a robot with what the comparison with its stage needs.
-
-    Args:
-        robot: The robot with the choices of the export.
-        losses: What the export reported.
-        path: Path of the stage.
-    """
+    """Return a robot with what the comparison with its stage needs."""
     return Source(robot, losses, list(_list_configurations(robot)), _find_bodies(path))
 
 

@@ -36,11 +36,7 @@ _APPROXIMATIONS = {"hull": "convexHull", "mesh": "none"}
 
 
 def write(robot: Robot, options: Options | None = None) -> Written:
-    """Convert a robot to USD.
-
-    Args:
-        robot: The robot.
-        options: Options of the export; None for the defaults of the command line.
+    """Convert a robot to USD, without options with the defaults of the command line.
 
     Returns:
         The stage and its images, with every loss.

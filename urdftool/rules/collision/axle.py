@@ -114,13 +114,7 @@ def compute_angle(one: Vector, other: Vector) -> float:
 def select_agreeing(
     sayings: Sequence[AxleDirection], along: Vector, within: float
 ) -> list[AxleDirection]:
-    """Select the sources with about the same direction.
-
-    Args:
-        sayings: All sources.
-        along: The direction.
-        within: The tolerated angle [degrees].
-    """
+    """Select the sources whose direction is within an angle [degrees] of a direction."""
     return [saying for saying in sayings if compute_angle(saying.along, along) <= within]
 
 

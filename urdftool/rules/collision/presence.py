@@ -315,12 +315,7 @@ def _is_covered(robot: Robot, link: Link) -> bool:
 
 
 def _is_invisible(link: Link, colors: Mapping[str, tuple[float, ...]]) -> bool:
-    """Tell whether a link is virtual, or all its visuals have a color with opacity 0.
-
-    Args:
-        link: The link.
-        colors: Colors of the robot's materials by name.
-    """
+    """Tell whether a link is virtual, or all its visuals have a color with opacity 0."""
     if _VIRTUAL.search(link.name):
         return True
     materials = [visual.material for visual in link.visuals]

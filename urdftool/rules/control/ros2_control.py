@@ -191,11 +191,6 @@ def _compare_with_mimic(
 ) -> tuple[str, bool]:
     """Compare the mimic parameters of a joint with its ``<mimic>``.
 
-    Args:
-        joint: The joint in ``<ros2_control>``.
-        leader: The joint that its parameter refers to.
-        mimic: The ``<mimic>`` of the joint in the URDF.
-
     Returns:
         The message, and whether the parameters repeat the ``<mimic>``.
     """

@@ -34,24 +34,12 @@ def find_kept_links(robot: Robot) -> set[str] | None:
 
 
 def is_joint_kept(robot: Robot, joint: Joint, kept: Set[str]) -> bool:
-    """Tell whether a joint remains a joint in Gazebo.
-
-    Args:
-        robot: The robot.
-        joint: One of its joints.
-        kept: The links that :func:`find_kept_links` returns.
-    """
+    """Tell whether a joint stays one in Gazebo, with the links of :func:`find_kept_links`."""
     return joint.child in kept and not is_lumped(robot, joint.child)
 
 
 def is_named_as_link(robot: Robot, joint: Joint, kept: Set[str]) -> bool:
-    """Tell whether Gazebo rejects the model because a joint and a link have the same name.
-
-    Args:
-        robot: The robot.
-        joint: One of its joints.
-        kept: The links that :func:`find_kept_links` returns.
-    """
+    """Tell whether Gazebo rejects the model because a joint and a link have the same name."""
     if joint.name not in robot.link or not is_joint_kept(robot, joint, kept):
         return False
     return joint.name in kept or joint.name == "world"

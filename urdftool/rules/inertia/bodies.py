@@ -74,12 +74,7 @@ def compute_mass(links: list[Link]) -> float:
 
 
 def compute_body_inertia(robot: Robot, links: Iterable[Link]) -> SpatialInertia:
-    """Add up the mass properties of the links of one body, in the frame of its first link.
-
-    Args:
-        robot: The robot.
-        links: Links of one body of :func:`bodies`, the topmost first.
-    """
+    """Add up the mass properties of the links of one body, in the frame of its first link."""
     members = list(links)
     names = {link.name for link in members}
     around = find_attached_links(robot, members[0])

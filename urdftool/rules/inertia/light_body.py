@@ -31,13 +31,7 @@ class LightBody(NamedTuple):
 
 
 def find_light_body(robot: Robot, link: Link, links: list[Link]) -> LightBody | None:
-    """Find the body of a link without mass; None unless it has a mass that is too small.
-
-    Args:
-        robot: The robot.
-        link: A link without mass.
-        links: The links of its rigid body.
-    """
+    """Find the body of a link without mass; None unless it has a mass that is too small."""
     mass = compute_mass(links)
     if mass <= 0 or not robot.moving_joints or is_fixed_to_world(robot, link):
         return None

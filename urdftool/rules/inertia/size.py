@@ -321,11 +321,6 @@ def _select_readers(six: SymmetricTensor) -> list[str]:
 def _has_own_size(robot: Robot, link: Link, certain: bool) -> bool:
     """Tell whether an inertia can be proposed for a link whose inertia exceeds its geometry.
 
-    Args:
-        robot: The robot.
-        link: A link of it.
-        certain: Whether the inertia is certainly wrong.
-
     Returns:
         False if the size includes that of attached links, or comes from visuals alone, which may
         differ from the body.

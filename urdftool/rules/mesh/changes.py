@@ -43,11 +43,6 @@ def change_uses(
 ) -> list[Change]:
     """Change each use of the mesh whose name a problem points at.
 
-    Args:
-        problem: The problem.
-        context: The robot and its description.
-        change: Returns the change of one use, or None if it cannot be changed.
-
     Returns:
         An empty list if one of them cannot be changed.
     """

@@ -138,10 +138,6 @@ class LinkExtents:
 
         It includes attached links that hardly have a mass of their own.
 
-        Args:
-            link: The link.
-            box: Bounding box of its own geometry.
-
         Returns:
             The box [m]; None if that of an attached link is unknown.
         """

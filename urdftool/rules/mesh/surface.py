@@ -54,13 +54,7 @@ def _read_surfaces(
     description: Description,
     concerns: Callable[[Robot, Link], bool] = lambda _robot, _link: True,
 ) -> Iterator[tuple[MeshUse, Path, Surface]]:
-    """List the collision meshes that are STL or OBJ files and can be read, each once.
-
-    Args:
-        robot: The robot.
-        description: Its description.
-        concerns: Tells whether to include the meshes of a link.
-    """
+    """List the collision meshes that are STL or OBJ files and can be read, each once."""
     seen: set[str] = set()
     for use in get_mesh_uses(robot, description):
         if not use.collides or not use.exists or use.path is None or use.uri in seen:

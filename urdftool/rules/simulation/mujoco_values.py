@@ -92,10 +92,6 @@ def find_setting_elements(robot: Robot) -> Iterator[Element]:
 def describe_required_setting(element: Element, name: str) -> str:
     """Describe the value that an attribute requires.
 
-    Args:
-        element: An element in ``<mujoco>``.
-        name: One of its attributes.
-
     Returns:
         "" if the value is valid, or the attribute is not in ``VALUES``.
     """

@@ -28,10 +28,6 @@ def get_ignoring_readers(element: Element, name: str) -> frozenset[str]:
 
     They depend on the type of the joint: only MuJoCo reads the axis of a fixed joint, and a
     continuous joint has no range in MuJoCo.
-
-    Args:
-        element: An element of URDF.
-        name: One of its attributes that contains a number.
     """
     tag = element.tag
     unread = _UNREAD.get(tag, frozenset()) | _UNREAD_ATTRIBUTES.get((tag, name), frozenset())

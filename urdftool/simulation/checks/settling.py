@@ -73,12 +73,7 @@ def check_final_state(robot: Robot, run: Run, state: FinalState) -> Iterator[Fau
 
 
 def has_diverged(run: Run, state: FinalState) -> bool:
-    """Tell whether the simulation diverged: a value was not finite, or the energy increased.
-
-    Args:
-        run: The run.
-        state: Its final state.
-    """
+    """Tell whether the simulation diverged: a value was not finite, or the energy increased."""
     size = max(run.bodies.size, 1e-3)
     lifting = max(run.bodies.mass * run.settings.gravity * size, 1e-9)  # J, by its own size
     bound = run.thresholds.energy_gain * lifting + 1e-3

@@ -44,12 +44,7 @@ class ExportMjcf(Protocol):
     """A function that exports a robot as MJCF."""
 
     def __call__(self, robot: Robot, fixed: bool) -> ModelFiles:
-        """Export a robot.
-
-        Args:
-            robot: The robot.
-            fixed: Whether its base is fixed to the world.
-        """
+        """Export a robot."""
 
 
 class World(Protocol):

@@ -59,10 +59,7 @@ def choose_default_engine() -> str:
 
 
 def check_engines(names: Iterable[str]) -> None:
-    """Refuse engines that are not installed, before any work is done.
-
-    Args:
-        names: Keys of ``REGISTRY``.
+    """Refuse engines, keys of ``REGISTRY``, that are not installed, before any work is done.
 
     Raises:
         MissingDependency: An engine is not installed; the message has the command to install it.

@@ -33,12 +33,6 @@ def slows_link(robot: Robot, link: Link, run: Run, *, placeholder: bool) -> bool
 
     The link must have a large part of the robot's mass, or of the inertia of its rigid body, and
     the tensor must imply mass outside of its shapes.
-
-    Args:
-        robot: The robot.
-        link: Link whose inertia a rule reports.
-        run: The run.
-        placeholder: Whether the tensor is a placeholder.
     """
     bounds = run.thresholds
     own = link_mass_properties(link)

@@ -146,12 +146,7 @@ def read_ros2_controllers(root: Node) -> Iterator[PlannedController]:
 
 
 def read_moveit_controllers(root: Node, kind: str) -> Iterator[PlannedController]:
-    """Yield the controllers in an existing ``moveit_controllers.yaml``.
-
-    Args:
-        root: The mapping of the file.
-        kind: Class of the controllers of grippers.
-    """
+    """Yield the controllers in an existing ``moveit_controllers.yaml``."""
     for name, section in get_sections(root).items():
         fields = section.fields or {}
         type_ = fields["type"].text or "" if "type" in fields else "FollowJointTrajectory"

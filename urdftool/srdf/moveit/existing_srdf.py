@@ -49,12 +49,6 @@ def complete_srdf(
 ) -> tuple[SemanticDescription, bytes, SrdfChanges]:
     """Add groups that an SRDF lacks, and update its pairs; return its content and bytes.
 
-    Args:
-        configuration: The package, with the content of the SRDF as it is.
-        path: The SRDF.
-        given: Groups that the user asks for.
-        decide: Decides the pairs.
-
     Raises:
         ConfigError: A given group has the name of another one.
         ModelError: The SRDF is of another robot.

@@ -76,12 +76,7 @@ class PackageFiles:
     """
 
     def __init__(self, folder: Path, workspace: Workspace) -> None:
-        """Begin without files.
-
-        Args:
-            folder: Folder of the package, which may exist.
-            workspace: Access to the existing files.
-        """
+        """Begin without files."""
         self.folder = folder
         self._workspace = workspace
         self.files: list[PackageFile] = []

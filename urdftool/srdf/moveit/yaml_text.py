@@ -29,12 +29,7 @@ class Commented:
 
 
 def format_yaml(tree: Tree, comments: tuple[str, ...] = ()) -> str:
-    """Format a parameter file.
-
-    Args:
-        tree: Its mapping.
-        comments: Lines at the start of the file.
-    """
+    """Format a parameter file."""
     return "\n".join([*(f"# {line}" for line in comments), *_format_mapping(tree, 0), ""])
 
 
@@ -85,10 +80,6 @@ def complete(root: Node, tree: Tree) -> Iterator[tuple[str, Edit]]:
     """Yield the edits that add missing keys to a parameter file, each with the path of its key.
 
     Present values, also of other types, are kept.
-
-    Args:
-        root: The mapping of the file.
-        tree: Mapping with the keys that the file must have.
     """
     yield from _complete(root, tree, ())
 

@@ -61,14 +61,7 @@ MOVABLE = ("revolute", "prismatic", "continuous")
 
 
 def verify(robot: Robot, written: Written, options: Options, output: str | Path) -> list[Check]:
-    """Read an export back and compare it with its source.
-
-    Args:
-        robot: The source.
-        written: The export.
-        options: Options of the export.
-        output: Path of the exported file or folder.
-    """
+    """Read an export back and compare it with its source."""
     place = Path(output) if options.file else Path(output) / written.main
     try:
         pair = read_pair(robot, written, place, options)
