@@ -303,9 +303,7 @@ CHANGES = (
     Planted("light moved", "other elements", say("//light/pose", "0 0 0.5 0 0 0")),
     Planted("color of a light", "other elements", say("//light/diffuse", "0 0 1 1")),
     Planted(
-        "nested model added",
-        "other elements",
-        add(MODEL, "<model name='more'><link name='a'/></model>"),
+        "nested model added", "tree", add(MODEL, "<model name='more'><link name='a'/></model>")
     ),
 )
 """What is changed, and where it has to be named."""

@@ -57,9 +57,14 @@ def find(robots, row="world"):
         (URDF.format(OF_URDF), MJCF.format(-3.7), True),
         (URDF.format(OF_URDF), MJCF.format(-1.6), False),
         (URDF.format(OF_URDF), make_sdf(GRAVITY.format(-1.6)), False),
+        # a simulator uses that of the Earth for a file without one
+        (URDF.format(""), MJCF.format(-1.6), False),
+        (URDF.format(""), make_sdf(GRAVITY.format(-1.6)), False),
+        (make_sdf(), MJCF.format(-3.7), False),
+        (make_sdf(world=False), MJCF.format(-3.7), False),
     ],
 )
-def test_gravity_is_compared_where_both_say_it(write, one, two, is_equal):
+def test_gravity_is_compared(write, one, two, is_equal):
     robots = read_two(write, one, two)
     for first, second in (robots, robots[::-1]):
         found, reason = find((first, second))
@@ -91,8 +96,8 @@ def test_everything_in_a_world_is_compared(write, number):
     ("one", "two", "reason"),
     [
         (make_sdf(GRAVITY.format(-3.7)), make_sdf(world=False), "a file has no <world>"),
-        (make_sdf(), MJCF.format(-3.7), "gravity is not written in every file"),
-        (URDF.format(""), make_sdf(GRAVITY.format(-3.7)), "gravity is not written in every file"),
+        (make_sdf(), MJCF.format(-9.81), "gravity is not written in every file"),
+        (URDF.format(""), make_sdf(GRAVITY.format(-9.81)), "gravity is not written in every file"),
         (URDF.format(""), URDF.format(OF_URDF), "in the row of simulator data"),
     ],
 )

@@ -30,7 +30,8 @@ def _choose_world_rows(a: Robot, b: Robot) -> tuple[list[Setting], str]:
     """Return the settings of worlds that are compared; with a reason if that is none.
 
     MuJoCo has a value for each in every MJCF, Gazebo in every world. Between formats, gravity is
-    compared if each other file writes it.
+    compared if each other file writes it, or one writes another than that of the Earth, which is
+    what simulators use for a file without one.
     """
     if "usd" in (a.format, b.format):
         return [], "not read of USD"
@@ -39,10 +40,17 @@ def _choose_world_rows(a: Robot, b: Robot) -> tuple[list[Setting], str]:
         reason = "in the row of simulator data" if a.format == "urdf" else ""
         reason = "a file has no <world>" if without else reason
         return ([] if reason else [*BY_FORMAT[a.format]]), reason
-    if all(one.format == "mjcf" or "gravity" in one.world for one in (a, b)):
+    written = [one.format == "mjcf" or "gravity" in one.world for one in (a, b)]
+    if all(written) or not (_has_gravity_of_earth(a) and _has_gravity_of_earth(b)):
         rows = BY_FORMAT["mjcf" if "mjcf" in (a.format, b.format) else a.format]
         return [row for row in rows if row.name == "gravity"], ""
     return [], "gravity is not written in every file"
+
+
+def _has_gravity_of_earth(robot: Robot) -> bool:
+    """Tell whether the gravity around a robot is that of the Earth, or not written."""
+    value = robot.world.get("gravity")
+    return value is None or measure_content(value.content, (0.0, 0.0, -9.8)) <= _OF_EARTH
 
 
 def _record_decided(robot: Robot, other: Robot, compared: set[str], comparison: Comparison) -> None:
@@ -78,6 +86,10 @@ def _drop_shared(content: Content, other: Content) -> str:
     """Return the words of a value that another world does not have."""
     return " ".join(word for word in str(content).split() if word not in str(other).split())
 
+
+_OF_EARTH = 0.04
+"""Largest difference of gravity on the ground from 9.8 m/s²: it is 9.764 (Huascarán) to 9.834 m/s²
+(Arctic Ocean); Hirt et al. 2013, doi:10.1002/grl.50838."""
 
 _SAME = 1e-9
 """Largest difference of equal settings; chosen, above rounding errors."""
