@@ -77,13 +77,7 @@ def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def require_kind(name: str, value: object, annotation: str) -> None:
-    """Raise ConfigError if a value is of none of the kinds of an annotation.
-
-    Args:
-        name: Name of the option.
-        value: Its value.
-        annotation: Text of the annotation; other types than those of ``_KINDS`` allow all values.
-    """
+    """Raise ConfigError if a value is of none of the kinds of an annotation."""
     words = [word.partition("[")[0].strip() for word in _split(annotation)]
     if not words or any(word not in _KINDS for word in words):
         return

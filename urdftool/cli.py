@@ -154,10 +154,7 @@ def _is_at_work() -> bool:
 
 
 def call(arguments: list[str] | None = None) -> int:
-    """Run the command line and turn every failure into a message and an exit code.
-
-    Args:
-        arguments: Command-line arguments without the program name; None for ``sys.argv[1:]``.
+    """Run a command line, by default that of the process, and turn every failure into an exit code.
 
     Returns:
         The exit code.
@@ -176,13 +173,7 @@ def call(arguments: list[str] | None = None) -> int:
 
 
 def report_failures(console: Console, action: Callable[[], Any], words: Sequence[str]) -> int:
-    """Call a function, turn every failure into a message, and return the exit code.
-
-    Args:
-        console: Output for messages.
-        action: The function; its result is the exit code if it is a number.
-        words: Command-line arguments, for messages.
-    """
+    """Call a function, turn every failure into a message, and return the exit code."""
     try:
         result = action()
         return result if isinstance(result, int) else 0

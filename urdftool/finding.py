@@ -31,12 +31,7 @@ class Group(NamedTuple):
 
 
 class Cause(NamedTuple):
-    """Possible cause of a finding.
-
-    Attributes:
-        rules: Rules whose finding is the cause.
-        sites: Elements of which one has that finding.
-    """
+    """Possible cause of a finding."""
 
     rules: tuple[str, ...]
     sites: tuple[Site, ...]

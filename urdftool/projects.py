@@ -55,12 +55,7 @@ def is_trusted(files: Workspace) -> bool:
 
 
 def find_project(path: str | Path, files: Workspace) -> Path | None:
-    """Return the project of a file; None in a folder that everybody uses.
-
-    Args:
-        path: The file, which need not exist.
-        files: Access to files without restriction.
-    """
+    """Return the project of a file, which need not exist; None in a folder that everybody uses."""
     found = _find_project(files, os.path.dirname(os.path.abspath(path)))
     return None if found is None else Path(found)
 

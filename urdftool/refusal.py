@@ -19,11 +19,7 @@ FATAL = frozenset(
 
 
 class Refused(ModelError):  # noqa: N818 -- reads as what happened
-    """The robot has defects past which it cannot be written.
-
-    Attributes:
-        findings: One for each defect.
-    """
+    """The robot has defects past which it cannot be written."""
 
     def __init__(self, findings: Sequence[Finding]) -> None:
         """Take the findings, of which there is at least one."""

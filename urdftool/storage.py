@@ -298,11 +298,7 @@ def _settle(folder: Path, old: Path) -> None:
 
 
 def read_regular_file(path: str | Path, most: int) -> bytes:
-    """Read a regular file.
-
-    Args:
-        path: The file, or a link to it.
-        most: Maximum size [bytes].
+    """Read a regular file, or the one a link leads to, of at most ``most`` bytes.
 
     Raises:
         OSError: It is larger, cannot be read, or is a folder, pipe or device.
@@ -442,13 +438,7 @@ def split_parts(data: bytes) -> tuple[Any, list[bytes]]:
 
 
 def cache_key(revision: int, facts: object, inputs: Iterable[bytes] = ()) -> str:
-    """Return the key of a result: a digest of the version of urdftool and of all inputs.
-
-    Args:
-        revision: Revision of the computation, incremented when its result changes.
-        facts: Settings, JSON-serializable.
-        inputs: Contents of the files read.
-    """
+    """Return the key of a result: a digest of the version of urdftool and of all inputs."""
     digest = sha256(json.dumps([__version__, revision, facts], sort_keys=True).encode())
     for data in inputs:
         digest.update(b"\0%d\0" % len(data))

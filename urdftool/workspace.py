@@ -78,11 +78,7 @@ class Workspace:
     """
 
     def __init__(self, overlay: Mapping[str, bytes] | None = None) -> None:
-        """Create a workspace that records no dependencies.
-
-        Args:
-            overlay: Contents by path, read in place of those on disk.
-        """
+        """Create a workspace that records no dependencies."""
         self.dependencies: Dependencies | None = None
         self._overlay = {_get_key(path): data for path, data in (overlay or {}).items()}
         self._names = frozenset(map(os.path.basename, self._overlay))

@@ -42,12 +42,7 @@ def is_bundle(path: str | Path) -> bool:
 
 
 def check_bundle(path: str | Path, source: Robot | None = None) -> list[Defect]:
-    """Find the defects of a bundle.
-
-    Args:
-        path: A folder or a zip file.
-        source: The robot that was bundled, to compare with as yourdfpy reads both; None compares
-            nothing.
+    """Find the defects of a bundle, and what differs from its source if that is given.
 
     Raises:
         SourceError: It is not a bundle, or the zip file cannot be read.

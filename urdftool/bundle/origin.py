@@ -30,13 +30,7 @@ _MAX_CLIMB = 8
 
 @dataclass(frozen=True)
 class Repository:
-    """Commit of a git repository that contains sources of a bundle.
-
-    Attributes:
-        commit: Hash of the checked out commit.
-        packages: Packages whose files are in the repository.
-        modified: Sources that differ from the commit or are not in it.
-    """
+    """Commit of a git repository that contains sources of a bundle."""
 
     commit: str
     packages: list[str] = field(default_factory=list)

@@ -43,11 +43,6 @@ def is_zip(path: str | Path) -> bool:
 def write_bundle(target: str | Path, bundle: Bundle, *, overwrite: bool = False) -> None:
     """Write a bundle to a folder, or to a zip file if the path ends in ``.zip``.
 
-    Args:
-        target: The output.
-        bundle: The bundle.
-        overwrite: Also replace files that urdftool did not write, or that were edited.
-
     Raises:
         OutputError: The output cannot be written; its previous state is unchanged.
     """

@@ -47,12 +47,7 @@ def list_source_folders(robot: Robot) -> dict[str, str]:
 
 
 def replace_folders(text: str, folders: Mapping[str, str]) -> str:
-    """Return a text in which the folders of the sources are replaced by their URIs.
-
-    Args:
-        text: A value of a description, which may contain several paths.
-        folders: URIs by folder, as :func:`list_source_folders` returns them.
-    """
+    """Return a text in which the folders of the sources are replaced by their URIs."""
     for folder, uri in folders.items():
         if folder in text:
             pattern = rf"(?:file://|(?<![\w./-])){re.escape(folder)}(?=/|$|[^\w.-])"

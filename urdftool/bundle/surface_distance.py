@@ -31,11 +31,7 @@ class ExactSurface:
     """
 
     def __init__(self, corners: Points) -> None:
-        """Build the search structures.
-
-        Args:
-            corners: Triangles [m], shape (m, 3, 3).
-        """
+        """Build the search structures of triangles [m], shape (m, 3, 3)."""
         from scipy.spatial import cKDTree
 
         self._corners = corners

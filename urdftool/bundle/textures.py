@@ -31,11 +31,7 @@ class Shrunk(NamedTuple):
 
 
 def shrink_image(data: bytes, limit: int) -> Shrunk | None:
-    """Scale an image down, in its file format and with its aspect ratio.
-
-    Args:
-        data: An image file.
-        limit: Largest width and height [pixels].
+    """Scale an image down to a limit [pixels], in its file format and with its aspect ratio.
 
     Returns:
         The image; None if it is small enough, or is not an image that Pillow reads and writes.
@@ -64,12 +60,7 @@ def shrink_image(data: bytes, limit: int) -> Shrunk | None:
 
 
 def explain_unshrunk(data: bytes, limit: int) -> str:
-    """Return why an image that was not scaled down is larger than a limit; empty if it is not.
-
-    Args:
-        data: An image file.
-        limit: Largest width and height [pixels].
-    """
+    """Return why an image not scaled down is larger than a limit [pixels]; empty if it is not."""
     try:
         image = open_image(data)
     except MeshError as error:
@@ -80,11 +71,7 @@ def explain_unshrunk(data: bytes, limit: int) -> str:
 
 
 def shrink_glb_images(data: bytes, limit: int) -> Shrunk | None:
-    """Scale the images inside a GLB file down; everything else in it stays as it is.
-
-    Args:
-        data: The file.
-        limit: Largest width and height [pixels].
+    """Scale the images inside a GLB file down to a limit [pixels]; all else stays as it is.
 
     Returns:
         The file, with the size of its largest image; None if no image is larger, or the file is

@@ -116,13 +116,7 @@ def look_at(robot: Robot, link: Link, max_error: float = 0.05) -> Look | None:
 def check_all(
     looks: Sequence[Look], *, jobs: int | None = None, progress: Progress | None = None
 ) -> list[Checked]:
-    """Measure the collision geometry of links, several at a time.
-
-    Args:
-        looks: The links.
-        jobs: Number of processes; None for one per core.
-        progress: Called for every link.
-    """
+    """Measure the collision geometry of links, several at a time."""
 
     def under_way(done: int, now: Sequence[Look]) -> None:
         if progress is not None:

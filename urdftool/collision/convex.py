@@ -156,11 +156,7 @@ def measure_plane_distance(points: Points, sides: Points) -> Points:
 
 
 def thicken(points: Points, thickness: float) -> Points:
-    """Move copies of the points of a flat mesh to both sides of their plane.
-
-    Args:
-        points: Points [m] in or near a plane.
-        thickness: Distance [m] between the two sides.
+    """Move copies of points [m] of a flat mesh to both sides of their plane, some [m] apart.
 
     Raises:
         MeshError: The points lie on a line.

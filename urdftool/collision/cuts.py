@@ -107,11 +107,7 @@ class PlaneCutter:
         return self.partition.make_whole(*compute_outline(self.target))
 
     def decompose(self, max_error: float, most: int) -> Decomposition | None:
-        """Decompose the mesh into the fewest pieces within an error.
-
-        Args:
-            max_error: Acceptable error, relative to the size.
-            most: Largest number of pieces.
+        """Decompose the mesh into the fewest pieces within an error, relative to its size.
 
         Returns:
             Pieces within the error, or those with the smallest error; None if the mesh is flat.

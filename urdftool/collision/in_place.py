@@ -44,14 +44,7 @@ class Edited:
 def edit_sources(
     robot: Robot, plans: Sequence[LinkPlan], results: Mapping[Task, Result], layout: Layout
 ) -> Edited:
-    """Edit the source of a robot to use new collisions.
-
-    Args:
-        robot: The robot.
-        plans: Planned links.
-        results: Results of their meshes.
-        layout: Files and names of the pieces.
-    """
+    """Edit the source of a robot to use new collisions."""
     assert robot.source is not None
     found = Edited()
     if robot.source.expansion is None:

@@ -74,11 +74,6 @@ def read_surface(
 ) -> Prepared:
     """Read a mesh file and prepare it.
 
-    Args:
-        path: The mesh file.
-        scale: Factors, as URDF's ``<mesh scale>``.
-        gltf_up: Up axis of a glTF file.
-
     Raises:
         MeshError: It cannot be read, or has no face with an area.
     """

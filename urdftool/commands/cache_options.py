@@ -29,11 +29,6 @@ def add_cache_options(function: F) -> F:
 def choose_cache_folder(name: str, cache_dir: str | None, no_cache: bool) -> str | None:
     """Return the folder of the result cache, or None for no cache.
 
-    Args:
-        name: Name of the command, whose folder in the user's cache folder is the default.
-        cache_dir: Value of ``--cache-dir``.
-        no_cache: Value of ``--no-cache``.
-
     Raises:
         click.UsageError: Both options are given.
     """

@@ -59,13 +59,7 @@ def add_edit_options(function: F) -> F:
 
 
 class Words:
-    """Words of a command line: a robot, its xacro arguments, and operands.
-
-    Attributes:
-        path: Path of the robot.
-        arguments: Its xacro arguments.
-        operands: Other words.
-    """
+    """Words of a command line: a robot, its xacro arguments, and operands."""
 
     def __init__(self, words: tuple[str, ...], count: int | None, names: str) -> None:
         """Split words.

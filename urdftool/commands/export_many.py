@@ -37,12 +37,7 @@ _MOST_NAMES = 5  # robots that the last line names; chosen, no source
 
 @dataclass(frozen=True)
 class Robots:
-    """Value of the argument for several robots.
-
-    Attributes:
-        paths: Files and folders.
-        arguments: xacro arguments by name.
-    """
+    """Value of the argument for several robots."""
 
     paths: tuple[str, ...]
     arguments: dict[str, str]

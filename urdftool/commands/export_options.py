@@ -74,11 +74,7 @@ def _make_check(check: Callable[[str], str]) -> Callable[..., str]:
 
 
 def add_output_option(files: str) -> Callable[[F], F]:
-    """Make a decorator that adds ``-o``.
-
-    Args:
-        files: Suffixes of files that are written instead of a folder, for the help.
-    """
+    """Make a decorator that adds ``-o``."""
     return click.option(
         "-o",
         "--output",

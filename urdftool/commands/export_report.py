@@ -53,16 +53,7 @@ def run_export(
 ) -> int:
     """Export a robot, and report what was lost, compared and written.
 
-    Args:
-        console: Output for messages.
-        target: Output format.
-        robot: Robot.
-        options: Options of the format's writer.
-        output: File or folder; ``-`` is standard output.
-        values: Values of ``make_export_options``: whether losses are errors (``strict``), the
-            result is compared (``verified``), other files are replaced (``overwrite``), and the
-            format of the report (``style``).
-        more_checks: Returns further findings about the robot.
+    ``values`` are those of :func:`make_export_options`; an output ``-`` is standard output.
 
     Returns:
         The exit code.
@@ -129,15 +120,6 @@ def report_written(
     not_read: Sequence[Finding] = (),
 ) -> int:
     """Print losses to stderr, and the table or JSON to stdout; notes only with ``-v``.
-
-    Args:
-        console: Output for messages.
-        written: Exported files and losses.
-        checks: Results of the comparison; empty without ``--verify``.
-        output: File or folder; ``-`` for standard output.
-        as_json: Print the report as JSON.
-        not_compared: Properties that ``--verify`` does not compare.
-        not_read: What the robot does not hold of its source.
 
     Returns:
         The exit code: 1 if a property differs without a reported loss.

@@ -21,11 +21,6 @@ _SIZE = (1280, 960)  # pixels
 def draw_robots(console: Console, options: Options, outcome: Outcome) -> dict[str, bytes | str]:
     """Draw the first robots with findings.
 
-    Args:
-        console: Source of the configuration file.
-        options: Arguments and packages of the run.
-        outcome: The run.
-
     Returns:
         PNG file by path of the description, or the reason why there is none.
     """

@@ -30,11 +30,6 @@ def print_run(
     """Print what a run prints, and return its exit code.
 
     A run of named files, without other outputs, is not repeated while nothing changes.
-
-    Args:
-        console: Output for messages.
-        given: Options of the command line.
-        run: Runs the command, and adds what it prints to a transcript.
     """
     if not _is_stored(given):
         return run(None)

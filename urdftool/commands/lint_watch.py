@@ -39,13 +39,6 @@ def watch_files(
 ) -> NoReturn:
     """Report findings, and again after each change, until Ctrl-C.
 
-    Args:
-        console: Messages.
-        paths: Files and folders of the command line.
-        given: Options of the command line, by parameter.
-        run: Prints the report, with a function that checks files.
-        sleep: Waits for a time [s].
-
     Raises:
         click.UsageError: An option does not go with ``--watch``.
         KeyboardInterrupt: Ctrl-C.

@@ -25,13 +25,6 @@ def load_strict(
 ) -> Description:
     """Read a description; malformed XML is an error.
 
-    Args:
-        console: Output for warnings, and source of the configuration file.
-        robot: Path, and values of its xacro arguments by name.
-        packages: Folders by package name, from the command line.
-        package_paths: Folders that are searched for packages.
-        file: The file, if it has been read.
-
     Raises:
         SourceError: The file cannot be read, parsed or expanded.
     """
@@ -54,14 +47,7 @@ def read_configured(
 ) -> Description:
     """Read a description with the packages and options of the command line and configuration.
 
-    Args:
-        console: Source of the configuration file and of ``--gltf-up``.
-        path: Description.
-        arguments: Values of its xacro arguments by name.
-        packages: Folders by package name, from the command line.
-        package_paths: Folders that are searched for packages.
-        neighbors: Further folders by package name, with the priority of configured ones.
-        file: Content of the file; None to read it.
+    ``neighbors`` are more folders by package name, with the priority of configured ones.
 
     Raises:
         SourceError: The file cannot be read, parsed or expanded.
@@ -122,13 +108,7 @@ def report_gltf_axes(console: Console, robot: Robot) -> None:
 def report_unknown_arguments(
     console: Console, description: Description, *, shown: Callable[[str], str] = str
 ) -> None:
-    """Print the given xacro arguments that the description does not declare.
-
-    Args:
-        console: Output for warnings.
-        description: Description that was read with the arguments.
-        shown: Formats a path for messages.
-    """
+    """Print the given xacro arguments that the description does not declare."""
     if not description.arguments:
         return
     from ..report.expansion import format_unknown_arguments
@@ -141,13 +121,7 @@ def report_unknown_arguments(
 def report_assumed_packages(
     console: Console, description: Description, *, shown: Callable[[str], str] = str
 ) -> None:
-    """Print the packages that are not found and replaced by folders of the same name.
-
-    Args:
-        console: Output for warnings.
-        description: Description.
-        shown: Formats a path for messages.
-    """
+    """Print the packages that are not found and replaced by folders of the same name."""
     from ..errors import UrdftoolError
     from ..source.packages import shorten_path
 

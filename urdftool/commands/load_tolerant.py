@@ -32,15 +32,8 @@ def load_tolerant(
 ) -> Robot:
     """Read a robot; malformed XML that ROS accepts causes a warning instead of an error.
 
-    Args:
-        console: Output for warnings, and source of the configuration file.
-        path: Description, in any format that can be read.
-        arguments: Values of its xacro arguments by name.
-        packages: Folders by package name, from the command line.
-        package_paths: Folders that are searched for packages.
-        neighbors: Further folders by package name, with the priority of configured ones.
-        shown: Formats a path for messages.
-        many: The arguments are for several robots, and need not be declared by this one.
+    ``neighbors`` are more folders by package name, with the priority of configured ones; with
+    ``many``, the arguments are for several robots, and need not be declared by this one.
 
     Raises:
         UrdftoolError: The robot cannot be read, as for ``read_description`` and ``make_robot``, or

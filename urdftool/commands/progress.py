@@ -63,13 +63,7 @@ class Progress:
         return self
 
     def __call__(self, done: int, count: int, running: str | Sequence[str] = "") -> None:
-        """Update the progress.
-
-        Args:
-            done: Number of finished items.
-            count: Number of all items.
-            running: Names of the items in work.
-        """
+        """Update the progress."""
         names = escape_controls(running if isinstance(running, str) else ", ".join(running))
         self._state = done, count, names
         if not self.enabled or self.timed:

@@ -27,14 +27,8 @@ def read_any(
 ) -> Robot:
     """Read a robot of any format; malformed XML is an error.
 
-    Args:
-        console: Output for warnings, and source of the configuration file.
-        robot: Path, and values of its xacro arguments by name.
-        packages: Folders by package name, from the command line.
-        package_paths: Folders that are searched for packages.
-        edit: What the command writes into the source, which must then be URDF or xacro; empty if
-            it only reads.
-        quiet: Whether the caller prints ``robot.unread``.
+    ``edit`` says what the command writes into the source, which must then be URDF or xacro;
+    ``quiet``: the caller prints ``robot.unread``.
 
     Raises:
         UrdftoolError: The robot cannot be read, or not be edited.
@@ -68,14 +62,7 @@ def read_other(
 ) -> Robot:
     """Read a robot, and print what the model does not hold of its source.
 
-    Args:
-        console: Where losses are printed.
-        found: The format of the file.
-        file: The file.
-        arguments: xacro arguments, of which the format has none.
-        packages: Finder of files.
-        shown: Formats a path.
-        quiet: Whether the caller prints ``robot.unread``.
+    ``quiet``: the caller prints ``robot.unread``.
 
     Raises:
         UrdftoolError: The file cannot be read.

@@ -23,13 +23,6 @@ def apply_controllers(
 ) -> Settings:
     """Add the controllers of a file to the settings.
 
-    Args:
-        console: Output for notes about ignored parts of the file.
-        settings: Settings of the simulation.
-        robot: Robot.
-        path: Controller file; None returns the settings unchanged.
-        strict: Refuse controllers of an unknown type.
-
     Raises:
         ConfigError: The file does not match the robot.
         SourceError: The file cannot be read.
@@ -51,12 +44,7 @@ def apply_controllers(
 
 
 def report_open_loops(console: Console, robot: Robot) -> None:
-    """Print the connections that close loops, which the engines are not given.
-
-    Args:
-        console: Output for warnings.
-        robot: Robot; one that was read from URDF has none.
-    """
+    """Print the connections that close loops, which the engines are not given."""
     for closure in robot.closures:
         which = f"closed loop '{closure.name}'" if closure.name else "the closed loop"
         console.print_note(
@@ -83,12 +71,7 @@ def take_robot_of_scene(console: Console, robot: Robot) -> Robot:
 
 
 def report_replaced(console: Console, robot: Robot) -> None:
-    """Print what a description sets that the simulation has of its own: world, drives, constraints.
-
-    Args:
-        console: Output for notes.
-        robot: Robot; one that was read from URDF has none of them.
-    """
+    """Print what is set but simulated differently: world, drives, constraints."""
     from ..model.world_settings import list_changed
 
     names: list[str] = []

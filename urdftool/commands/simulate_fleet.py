@@ -91,14 +91,6 @@ def simulate_fleet(
 ) -> int:
     """Simulate files and the descriptions in folders, and return the exit code.
 
-    Args:
-        fleet: Function that simulates one robot.
-        paths: Files and folders.
-        style: ``text``, ``json`` or ``junit``.
-        junit: Additional JUnit XML file; None for none.
-        jobs: Number of worker processes; None for one per core.
-        scheduler: Address of a Dask scheduler to use instead; None for none.
-
     Raises:
         OutputError: The JUnit file cannot be written.
     """

@@ -107,18 +107,6 @@ def simulate_one(
 ) -> int:
     """Simulate a robot in one or two engines, print the verdict and return the exit code.
 
-    Args:
-        console: Output for messages.
-        robot: Robot.
-        settings: Settings of the simulation.
-        engines: Names of engines; two are compared.
-        thresholds: Thresholds of the checks.
-        child: Idle process of the first engine.
-        style: ``text``, ``json`` or ``junit``.
-        outputs: Files to draw of the first trial.
-        strict: Whether warnings are errors.
-        junit: Additional JUnit XML file; None for none.
-
     Raises:
         UrdftoolError: The robot cannot be simulated, or a file cannot be written.
     """

@@ -135,15 +135,7 @@ def write_moveit(
     packages: dict[str, Path],
     package_paths: tuple[str, ...],
 ) -> int:
-    """Write a MoveIt package, and return the exit code.
-
-    Args:
-        console: Output for messages.
-        robot: Robot.
-        values: Values of the options.
-        packages: Folders of ROS packages by name.
-        package_paths: Folders that contain ROS packages.
-    """
+    """Write a MoveIt package, and return the exit code."""
     if values["output"] is not None or values["style"] != "srdf":
         raise click.UsageError("--moveit writes files to its package; leave out --output, --format")
     folder, given = values["moveit"], values["given_groups"]
@@ -208,14 +200,7 @@ def check_shapes(robot: Robot, *, visual: bool) -> None:
 def format_result(
     console: Console, robot: Robot, verdicts: Verdicts, values: dict[str, Any]
 ) -> str:
-    """Format the result.
-
-    Args:
-        console: Output for the names of groups.
-        robot: Robot.
-        verdicts: Verdicts on its pairs.
-        values: Values of the options.
-    """
+    """Format the result."""
     from ..report import srdf as report
     from ..srdf.content import list_disabled
     from ..srdf.other_formats import FORMATS

@@ -39,12 +39,6 @@ def read_existing(
 ) -> SemanticDescription | None:
     """Read the SRDF of ``--check`` or ``--update``; None without one.
 
-    Args:
-        console: Output for warnings.
-        robot: Robot it should belong to.
-        arguments: xacro arguments.
-        values: Values of the options.
-
     Raises:
         UsageError: Both options are given.
         UrdftoolError: The file cannot be read, or is of another robot.

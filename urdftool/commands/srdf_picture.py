@@ -44,14 +44,7 @@ def check_picture_target(robot: Robot, values: dict[str, Any]) -> None:
 def write_contacts(
     console: Console, robot: Robot, pairs: Sequence[PairPose], values: dict[str, Any]
 ) -> None:
-    """Write the picture of ``--picture``, if there is something to draw.
-
-    Args:
-        console: Output for messages.
-        robot: Robot.
-        pairs: Pairs with the positions at which they touch.
-        values: Values of the options.
-    """
+    """Write the picture of ``--picture``, if there is something to draw."""
     from ..drawing.pair_sheet import MOST, draw_pair_sheet
     from ..drawing.png_file import encode_png
     from ..drawing.shapes import read_robot_shapes

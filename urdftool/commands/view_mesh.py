@@ -28,12 +28,6 @@ def read_mesh_robot(
 ) -> Robot:
     """Read a mesh file as a robot of one link, whose visual and collision geometry is the mesh.
 
-    Args:
-        console: Source of the configuration file.
-        path: Mesh file.
-        packages: Folders by package name, from the command line.
-        package_paths: Folders that are searched for packages.
-
     Raises:
         UrdftoolError: The file is not found, or cannot be read.
     """

@@ -35,19 +35,6 @@ def serve_page(
 ) -> None:
     """Serve the page until Ctrl-C.
 
-    Args:
-        console: Output for messages.
-        read: Reads the robot; called again when a file changes.
-        port: Port; None for the default or the next free one.
-        host: Network address; None for this computer only.
-        opened: Open the page in the browser.
-        at: File and line of its source whose link is selected.
-        linted: Show lint findings.
-        pose: Initial joint positions by name [rad or m].
-        show: Geometry to show: ``visual``, ``collision`` or ``both``.
-        srdf: SRDF whose disabled pairs are compared; None for no tab of pairs.
-        arguments: xacro arguments, for an SRDF in xacro.
-
     Raises:
         UrdftoolError: The robot has no links, a joint of the pose does not exist, the address
             cannot be used, or viser is not installed.

@@ -78,13 +78,6 @@ def compare_robots(
     Joints are matched by name, then by the structure of the tree. Both robots are compared body by
     body from the root; a difference is recorded at its part, and not again below it.
 
-    Args:
-        a: The first robot.
-        b: The second.
-        rows: Properties to compare.
-        names: Known names of joints and links.
-        meshes: Meshes that have been measured before.
-
     Raises:
         ModelError: The links of a robot do not form a tree.
     """

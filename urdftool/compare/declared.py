@@ -58,13 +58,6 @@ def compare_declared(
     joints; the pose of each link at random positions of all joints; mass, center of mass and tensor
     of each link in its frame, with those that were merged into it; soft limits and calibration.
 
-    Args:
-        a: The first robot.
-        b: The second, made of the first.
-        declared: How it was made.
-        rows: Properties to compare, with their tolerances.
-        meshes: Meshes that have been measured before.
-
     Raises:
         ConfigError: The first robot cannot be what is declared.
         ModelError: The links of a robot do not form a tree.

@@ -137,12 +137,6 @@ def find_renames(
 
     A link is renamed if a new link has the same parent and is equal, and so is its parent joint. A
     joint is renamed if an equal new joint connects the same links.
-
-    Args:
-        a: The first robot.
-        b: The second robot.
-        same_link: Tells whether two links are equal except for their names.
-        same_joint: Tells whether two joints are equal except for their names and links.
     """
     links: dict[str, str] = {}
     joints: dict[str, str] = {}
@@ -201,14 +195,7 @@ _AXIS_LENGTH = 1e-2
 def compare_joints(
     a: Joint, b: Joint, tolerance: float, renamed: Mapping[str, str]
 ) -> Iterator[Difference]:
-    """Yield the differences of a joint.
-
-    Args:
-        a: The joint in the first robot.
-        b: The joint in the second.
-        tolerance: Tolerance as in ``tolerance.TOLERANCE``.
-        renamed: New names of links and joints by old names.
-    """
+    """Yield the differences of a joint."""
     for what in ("type", "parent", "child"):
         before, after = getattr(a, what), getattr(b, what)
         if (before if what == "type" else renamed.get(before, before)) != after:

@@ -88,16 +88,7 @@ def compare_elements(
     tolerance: float,
     renamed: Mapping[str, str],
 ) -> Iterator[Difference]:
-    """Yield the differences of two elements, by the path of their attributes and texts.
-
-    Args:
-        row: Row of the differences.
-        kind: Kind of the element.
-        name: Name of the element in the second robot.
-        sides: The element in both robots.
-        tolerance: Relative tolerance of numbers.
-        renamed: New names of parts by their old names.
-    """
+    """Yield the differences of two elements, by the path of their attributes and texts."""
     before, after = _flatten_content(sides[0], renamed), _flatten_content(sides[1], {})
     yield from _compare_flat(row, kind, name, before, after, tolerance, renamed)
 

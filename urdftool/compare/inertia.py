@@ -281,14 +281,7 @@ def _compare_properties(
     values: tuple[Properties, Properties],
     comparison: Comparison,
 ) -> None:
-    """Compare the properties of a link, which are in the frame of the first body.
-
-    Args:
-        links: The link in both robots.
-        frames: Their frames, 4 × 4.
-        values: Their properties.
-        comparison: Where differences are recorded.
-    """
+    """Compare the properties of a link, which are in the frame of the first body."""
     (mass, com, tensor), (mass2, com2, tensor2) = values
     names = links[0].name, links[1].name
     places = (

@@ -75,15 +75,7 @@ def list_values(a: Joint, b: Joint, *parts: str) -> Iterator[WrittenValue]:
 
 
 class WrittenValue(NamedTuple):
-    """Value of a joint in two robots.
-
-    Attributes:
-        part: Part of the joint, such as ``limit``.
-        name: Attribute of the part.
-        values: Value in each robot; None where there is none.
-        unit: Unit of the values; empty for none.
-        owners: The part in each robot.
-    """
+    """Value of a joint in two robots."""
 
     part: str
     name: str

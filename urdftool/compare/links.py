@@ -19,14 +19,7 @@ Shape = Visual | Collision
 def compare_links(
     a: Link, b: Link, tolerance: float, robots: tuple[Robot, Robot]
 ) -> Iterator[Difference]:
-    """Yield the differences of a link.
-
-    Args:
-        a: The link in the first robot.
-        b: The link in the second.
-        tolerance: Tolerance as in ``tolerance.TOLERANCE``.
-        robots: Both robots, for named materials.
-    """
+    """Yield the differences of a link."""
     yield from _compare_inertials(a, b, tolerance)
     yield from _compare_shapes("visual", a.visuals, b.visuals, b, tolerance, robots)
     yield from _compare_shapes("collision", a.collisions, b.collisions, b, tolerance, robots)

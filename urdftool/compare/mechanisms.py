@@ -24,14 +24,7 @@ _REFERENCES = ("parent", "child", "link", "other", "joint")
 def compare_mechanisms(
     a: Robot, b: Robot, tolerance: float, renamed: Mapping[str, str]
 ) -> Iterator[Difference]:
-    """Yield the differences of parts that URDF lacks; their order is ignored.
-
-    Args:
-        a: The first robot.
-        b: The second.
-        tolerance: Tolerance as in ``tolerance.TOLERANCE``.
-        renamed: New names of links and joints by their old names.
-    """
+    """Yield the differences of parts that URDF lacks; their order is ignored."""
     in_blocks = a.xml is not None and b.xml is not None  # their elements are compared
     sides = list_parts_by_kind(a), list_parts_by_kind(b)
     for (kind, before), (_, after) in zip(*sides, strict=True):

@@ -41,12 +41,6 @@ def compare_native(
 
     Elements correspond by section, tag and name, and those without a name by their order. What
     another part of a robot holds is compared there.
-
-    Args:
-        a: Elements of the first robot.
-        b: Elements of the second, of the same format.
-        tolerance: Tolerance as in ``tolerance.TOLERANCE``.
-        renamed: New names of parts by their old names.
     """
     one, two = _group(a, renamed), _group(b, {})
     for key in dict.fromkeys((*one, *two)):

@@ -31,14 +31,7 @@ _SHOWN = 4
 
 
 class Placed(NamedTuple):
-    """A shape at its pose in the frame of the first body.
-
-    Attributes:
-        link: Its link.
-        shape: The visual or collision.
-        geometry: Its geometry.
-        pose: Pose, 4 × 4.
-    """
+    """A shape at its pose in the frame of the first body."""
 
     link: Link
     shape: Visual | Collision

@@ -15,14 +15,7 @@ from .pair import Pair, locate
 def compare_references(
     pair: Pair, joints: tuple[Joint, Joint], sign: float, comparison: Comparison
 ) -> None:
-    """Compare the safety controllers and calibrations of a joint of two URDF.
-
-    Args:
-        pair: Both robots.
-        joints: The joint in both.
-        sign: -1 if the axes are opposite, else 1.
-        comparison: Where differences are recorded.
-    """
+    """Compare the safety controllers and calibrations of a joint of two URDF."""
     if pair.formats == ("urdf", "urdf"):
         one, two = joints
         for difference in list_references(one, _turn(two) if sign < 0 else two):

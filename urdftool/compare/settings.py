@@ -150,12 +150,6 @@ def compare_written_settings(
     """Yield the differences of settings of links and joints that both robots have.
 
     Nothing of two URDF, of which the elements of their blocks are compared.
-
-    Args:
-        a: The first robot.
-        b: The second robot.
-        tolerance: Relative tolerance.
-        renamed: New names of links and joints by their old names.
     """
     if a.xml is not None and b.xml is not None:
         return

@@ -76,12 +76,7 @@ class Disagreement:
 
 @dataclass
 class Agreement:
-    """Result of the comparison of several robots.
-
-    Attributes:
-        rows: Compared properties.
-        pairs: Comparison of each pair, by the numbers of the robots.
-    """
+    """Result of the comparison of several robots."""
 
     rows: tuple[Row, ...]
     pairs: dict[tuple[int, int], Comparison]

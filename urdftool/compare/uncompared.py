@@ -28,14 +28,7 @@ IMAGES = "image not read", "images not read"
 
 
 class Uncompared(NamedTuple):
-    """A part of a row that was not compared.
-
-    Attributes:
-        row: The row.
-        kind: What it is, for one and for several.
-        name: Its name.
-        reason: Why it was not compared.
-    """
+    """A part of a row that was not compared."""
 
     row: str
     kind: tuple[str, str]

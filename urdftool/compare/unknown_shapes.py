@@ -41,12 +41,7 @@ def _has_equal_extent(pair: Pair, one: Plane, two: Plane, tolerance: float) -> b
 
 
 def explain_unknown(pair: Pair, shapes: tuple[UnknownShape, UnknownShape]) -> str:
-    """Return why it is unknown whether two shapes that are not read are equal; empty if they are.
-
-    Args:
-        pair: Both robots.
-        shapes: A shape of each, whose contents are not known to differ.
-    """
+    """Return why it is unknown whether two shapes, not read, are equal; empty if they are."""
     one, two = shapes
     robots = pair.a.robot, pair.b.robot
     if is_one_text(*robots):

@@ -75,14 +75,7 @@ _SEVERAL = frozenset(("link", "joint", "visual", "collision"))
 
 
 class Unreadable(NamedTuple):
-    """A value or an element that readers take in different ways.
-
-    Attributes:
-        rows: Rows that it concerns.
-        name: What it is.
-        reason: What is wrong.
-        content: What is written.
-    """
+    """A value or an element that readers take in different ways."""
 
     rows: tuple[str, ...]
     name: str

@@ -200,12 +200,7 @@ class Layout:
 
 
 def choose_layout(count: int, cell: tuple[int, int] | None = None) -> Layout:
-    """Choose the number of columns that gives the sheet roughly the shape of a screen.
-
-    Args:
-        count: Number of joints.
-        cell: Width and height of one picture in pixels; by default smaller for many joints.
-    """
+    """Choose the number of columns that gives the sheet roughly the shape of a screen."""
     cell = cell or _choose_cell(count)
     letter = min(max(cell[1] // 16, 11), 22)
     best = Layout(1, max(count, 1), cell, letter)

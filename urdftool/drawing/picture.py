@@ -232,11 +232,7 @@ def make_background(size: tuple[int, int], color: tuple[float, float, float] | N
 
 
 class Ground:
-    """A level floor under a robot scaled to size 1 about the origin.
-
-    Attributes:
-        height: Height of the floor.
-    """
+    """A level floor under a robot scaled to size 1 about the origin."""
 
     def __init__(
         self, height: float, corners: Floats, shadow: ShadowMap | None, scale: float

@@ -82,12 +82,7 @@ def shade(albedo: Colors, normals: Colors, to_eye: Colors, lit: Colors, lights: 
 
 
 class ShadowMap:
-    """Shadow map of a parallel light.
-
-    Attributes:
-        resolution: Rows and columns of samples.
-        texel: Width of a sample.
-    """
+    """Shadow map of a parallel light."""
 
     def __init__(self, corners: Floats, direction: Floats, resolution: int) -> None:
         """Render triangles, shape (m, 3, 3), from ``direction``, which points to the light."""

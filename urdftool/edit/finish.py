@@ -94,14 +94,7 @@ def finish(
     *,
     tolerance: float = TOLERANCE,
 ) -> Edited:
-    """Make the texts of an edited robot, read them, and compare the robot with its sources.
-
-    Args:
-        draft: The robot with its changes.
-        sources: Robots it was made of, their names, and the lines of their correspondences.
-        output: Path of the URDF, to which relative paths of meshes refer; None keeps its folder.
-        tolerance: Tolerance of the comparison.
-    """
+    """Make the texts of an edited robot, read them, and compare the robot with its sources."""
     rows = narrow_tolerances(ROWS, tolerance)
     file = draft.file
     folder = Path(file.path).parent

@@ -65,13 +65,7 @@ Refer = Callable[[Path], str]
 
 
 def list_inclusions(robot: Robot, wish: Wish, refer: Refer) -> Iterator[Inclusion]:
-    """Yield the ways to use a description: it is included, or its macros are called.
-
-    Args:
-        robot: The robot of the description.
-        wish: Prefix and parent.
-        refer: How a file is named.
-    """
+    """Yield the ways to use a description: it is included, or its macros are called."""
     description = robot.source
     assert description is not None
     yield from _include(robot, description, wish, refer)

@@ -22,13 +22,7 @@ from .references import list_gazebo_blocks, list_names_in_text
 
 
 class Merged(NamedTuple):
-    """A link that becomes part of another one.
-
-    Attributes:
-        link: The link.
-        owner: Name of the link that it becomes part of.
-        pose: Its pose in that link.
-    """
+    """A link that becomes part of another one."""
 
     link: Link
     owner: str

@@ -51,13 +51,7 @@ def list_others(root: Element) -> Iterator[Element]:
 
 
 class NameChange(NamedTuple):
-    """A name in a description that changes.
-
-    Attributes:
-        element: The element.
-        attribute: The attribute; empty for the text of the element.
-        name: The new name.
-    """
+    """A name in a description that changes."""
 
     element: Element
     attribute: str
@@ -165,14 +159,7 @@ def _list_kept(draft: Draft, element: Element) -> Iterator[Element]:
 def list_names_in_text(
     draft: Draft, names: Iterable[str], why: str, *, skipped: Sequence[Element] = ()
 ) -> None:
-    """List the texts of plugins with one of many names, as :func:`report_text`.
-
-    Args:
-        draft: The robot.
-        names: The names.
-        why: End of the message.
-        skipped: Blocks that are not searched.
-    """
+    """List the texts of plugins with one of many names, as :func:`report_text`."""
     known = sorted(filter(None, names), key=len, reverse=True)
     if not known:
         return

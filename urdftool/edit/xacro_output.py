@@ -37,13 +37,6 @@ def attach_in_xacro(
 ) -> Edited:
     """Return the xacro file that includes two descriptions, or calls the macros of the second.
 
-    Args:
-        robots: Both robots.
-        mount: Where the second is attached.
-        prefix: Prefix of the second one.
-        make: Makes the URDF of the same operation, for the name of the joint.
-        output: Path of the file.
-
     Raises:
         ModelError: No way to write it gives the robot of the URDF.
     """

@@ -86,14 +86,7 @@ def _is_trailing(tokens: list[Token], index: int) -> bool:
 
 
 def _format_blank(token: Token, follower: Token | None, depth: int, breaks_here: bool) -> bytes:
-    """Return the white space between two tokens that are not text.
-
-    Args:
-        token: The white space as written.
-        follower: The next token.
-        depth: Number of open elements.
-        breaks_here: Whether a line has to begin here.
-    """
+    """Return the white space between two tokens that are not text."""
     count = min(token.breaks, 2) or int(breaks_here)
     if not count:
         return token.data

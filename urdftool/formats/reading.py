@@ -54,12 +54,6 @@ def find_remarks(robot: Robot) -> Iterator[Finding]:
 def find_chosen(name: str, known: Sequence[str], what: str, place: Place) -> int:
     """Return the number of the robot of a name; ends of paths count as names.
 
-    Args:
-        name: The name.
-        known: Names or paths of the robots of a file.
-        what: Kind of a robot: ``model`` or ``articulation``.
-        place: Location in the file.
-
     Raises:
         ModelError: There is none, or several.
     """
@@ -174,11 +168,6 @@ def choose_limits(limits: Limits, workspace: Workspace) -> Limits:
 @contextmanager
 def report_limits(library: str, what: str, place: Place) -> Iterator[None]:
     """Report that a library in another process crashed on a description or exceeded its limits.
-
-    Args:
-        library: Name of the library.
-        what: What it reads: ``model`` or ``stage``.
-        place: Location in the description.
 
     Raises:
         LimitError: It exceeded them.

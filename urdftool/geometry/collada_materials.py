@@ -23,13 +23,7 @@ class Materials:
     """Materials of a COLLADA file, by the bindings of instances."""
 
     def __init__(self, root: Element, space: str, path: Path) -> None:
-        """Store the file.
-
-        Args:
-            root: Its root element.
-            space: Namespace of its elements, in braces.
-            path: The file; images are relative to its folder.
-        """
+        """Store the file."""
         self._root = root
         self._space = space
         self._path = path

@@ -103,12 +103,7 @@ class _Count(NamedTuple):
 
 
 class Document:
-    """COLLADA file; sources and primitives are parsed once, on demand.
-
-    Attributes:
-        root: Root element.
-        space: Namespace of its elements, in braces.
-    """
+    """COLLADA file; sources and primitives are parsed once, on demand."""
 
     def __init__(self, path: Path) -> None:
         """Parse the file.

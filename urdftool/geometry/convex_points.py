@@ -114,10 +114,6 @@ class ConvexPoints:
 def read_convex_points(path: str | Path, gltf_up: GltfUp = "y") -> ConvexPoints | None:
     """Read the points of a mesh file.
 
-    Args:
-        path: An STL, OBJ, DAE, PLY, glTF or GLB file.
-        gltf_up: Up axis of a glTF file.
-
     Returns:
         None if the file cannot be read, is larger than :data:`LARGEST`, or has no points or a point
         that is not finite.

@@ -33,15 +33,7 @@ MAX_TREE = 4_000_000
 def check_instances(
     path: Path, size: int, *, triangles: int = 0, parts: int = 0, nodes: int = 0
 ) -> None:
-    """Raise MeshError if a mesh with all its instances exceeds a limit.
-
-    Args:
-        path: The mesh file.
-        size: Size of it and the files that hold its triangles [bytes].
-        triangles: Number of triangles.
-        parts: Number of parts.
-        nodes: Number of nodes.
-    """
+    """Raise MeshError if a mesh with all its instances exceeds a limit."""
     if triangles <= MAX_TRIANGLES and parts <= MAX_PARTS and nodes <= MAX_NODES:
         return
     for count, limit, what in (

@@ -60,13 +60,10 @@ class Edges:
 
 
 def explain_unit_suspicion(extent: float) -> Diagnostic | None:
-    """Explain why the size of one link's mesh suggests a wrong unit; None if it does not.
+    """Explain why the extent [m] of one link's mesh suggests a wrong unit; None if it does not.
 
     Of 4,325 meshes in public robots, all but ten have an extent below 2.03 m. Those ten are above
     99 m: millimeters read as meters. Meshes below 1 mm are in meters but were scaled by 0.001.
-
-    Args:
-        extent: Longest edge of the scaled mesh's bounding box [m].
     """
     if extent > LARGE_EXTENT:
         return make_warning(

@@ -194,12 +194,6 @@ def add_attached(
     """Add sensors, plugins and controllers, attached to their link or joint.
 
     Those of the whole robot are attached to its root, or to its first link if it has no root.
-
-    Args:
-        figure: Figure to extend.
-        robot: The robot.
-        links: Node keys by link name.
-        joints: Node keys by joint name.
     """
     tops = [*robot.tree.roots, *robot.links]
     top = links.get(tops[0].name) if tops else None

@@ -78,15 +78,7 @@ def fill(
     single: bool = False,
     through_calls: bool = True,
 ) -> Filling:
-    """Plan the edits that give each reviewed link the inertia that its geometry implies.
-
-    Args:
-        robot: The robot, read from a description.
-        found: Reviews of its links.
-        masses: Mass assignment; with ``recompute``, written values are replaced, too.
-        single: Whether only the description itself may be edited, not its includes.
-        through_calls: Whether arguments of macro calls may be edited.
-    """
+    """Plan the edits that give each reviewed link the inertia that its geometry implies."""
     filling = Filling()
     todo = [
         link_edits

@@ -47,11 +47,6 @@ def check_filling(robot: Robot, filling: Filling, edited: Mapping[str, bytes]) -
 
     The edited text is parsed and expanded with the edited includes; then each element is compared
     with the original.
-
-    Args:
-        robot: The robot as it was read.
-        filling: The planned changes.
-        edited: New content of each edited file.
     """
     assert robot.source is not None
     try:

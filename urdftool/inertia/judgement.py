@@ -82,12 +82,7 @@ def _is_unreadable(inertial: Inertial, tag: str, name: str, item: LinkReview) ->
 
 
 class Context(NamedTuple):
-    """Data for judging a link.
-
-    Attributes:
-        robot: The robot.
-        meshes: Bodies of its meshes.
-    """
+    """Data for judging a link."""
 
     robot: Robot
     meshes: Meshes

@@ -60,10 +60,6 @@ class LinkEdits:
 def determine_edits(item: LinkReview, *, recompute: bool) -> LinkEdits:
     """Determine the changes to a link whose implied mass properties are known.
 
-    Args:
-        item: The review of the link, with ``implied``.
-        recompute: Whether written values are replaced; if not, only missing ones are added.
-
     Raises:
         InertiaError: The result would be physically inconsistent.
     """

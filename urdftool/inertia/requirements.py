@@ -28,10 +28,6 @@ def is_consistent(properties: SpatialInertia, *, tolerance: float = ROUNDING) ->
 def require_consistent(properties: SpatialInertia, what: str = "the result") -> SpatialInertia:
     """Return the argument if it is physically consistent.
 
-    Args:
-        properties: Mass properties.
-        what: Name of the body in error messages.
-
     Raises:
         InertiaError: The mass is not above zero, or the tensor violates positivity or the triangle
             inequality.

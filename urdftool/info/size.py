@@ -59,11 +59,6 @@ def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
     """Compute the bounding box of a robot at the zero pose, and read its meshes.
 
     At the zero pose, all joints are at 0, and mimic joints follow them.
-
-    Args:
-        robot: The robot, read from a description.
-        progress: Called before each mesh is read, with its number, the number of meshes and its
-            URI.
     """
     poses = compute_link_poses(robot)
     measured = Measured()

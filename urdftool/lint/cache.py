@@ -35,12 +35,7 @@ _LARGEST_SOURCE = 256 * 1024 * 1024
 
 
 class Cache:
-    """Reports by key, for one command; each query is made at most once.
-
-    Attributes:
-        store: Cache on disk.
-        queries: Answers to the queries of all reports.
-    """
+    """Reports by key, for one command; each query is made at most once."""
 
     def __init__(self, store: DiskCache) -> None:
         """Set the cache on disk."""
@@ -49,12 +44,7 @@ class Cache:
         self._code = hash_code()
 
     def get_key(self, path: str | Path, facts: list[Any]) -> str:
-        """Return the key of a check: a digest of its inputs.
-
-        Args:
-            path: Path of the description.
-            facts: What the report depends on in addition to files.
-        """
+        """Return the key of a check: a digest of its inputs."""
         known = [_FORMAT, self._code, os.getcwd(), str(path), *facts]
         return sha256(repr(known).encode("utf-8", "surrogateescape")).hexdigest()
 

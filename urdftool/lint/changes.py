@@ -59,13 +59,6 @@ def select_concerned(
     A description concerns the robots that include it; a configuration those below its folder; a
     ``package.xml`` all, because any may find the package; another file, such as a mesh, those of
     its package, those whose files contain its name, and those to which it passes arguments.
-
-    Args:
-        files: Robots.
-        found: Who includes whom.
-        changed: Resolved paths of the changed files.
-        workspace: Access to files.
-        config: Configuration file named by the user.
     """
     if any(os.path.basename(path) in _FINDING for path in changed):
         return list(files)

@@ -63,12 +63,7 @@ class Evidence(NamedTuple):
 
 @dataclass
 class Signs:
-    """The evidence of a description, each kind read on demand.
-
-    Attributes:
-        robot: The robot.
-        description: The description.
-    """
+    """The evidence of a description, each kind read on demand."""
 
     robot: Robot
     description: Description

@@ -29,13 +29,7 @@ _QUICK = "not-well-formed"
 
 
 class ControllerUse(NamedTuple):
-    """A file with controllers for a robot.
-
-    Attributes:
-        path: Its path.
-        why: What refers to it.
-        controllers: Type of each controller, by name.
-    """
+    """A file with controllers for a robot."""
 
     path: str
     why: str
@@ -89,11 +83,6 @@ class _Reader:
 
 def explain_targets(path: str, options: Options, robot: RobotFile | None) -> ExplainedTargets:
     """Read a description as ``lint`` does, and return its targets with their evidence.
-
-    Args:
-        path: Path of the description.
-        options: Options of the check.
-        robot: Its variants in launch files; None if no folder was searched.
 
     Raises:
         ConfigError: The configuration is invalid.

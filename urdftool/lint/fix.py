@@ -45,14 +45,6 @@ def add_fixes(
 
     An exception in a fixer is a bug of urdftool: it is recorded in ``failed_rules``, and other
     fixes continue.
-
-    Args:
-        report: Report that records refused, skipped and failed fixes.
-        findings: Findings that are not suppressed.
-        origins: Origin by ``id`` of the finding; none for a file that could not be read.
-        robot: The robot, if it could be read.
-        description: The description.
-        options: Options of the command line.
     """
     groups: dict[tuple[Any, ...], list[Finding]] = {}
     open_findings = {(finding.code, finding.site) for finding in findings}

@@ -137,11 +137,7 @@ def apply_fixes(
 ) -> FixResult:
     """Apply the fixes of many descriptions; no description gets worse.
 
-    Args:
-        reports: Reports of the descriptions, made with the same options.
-        options: Options of the command line; ``fixes`` must be on.
-        unsafe: Whether to apply unsafe fixes too.
-        meshes: Whether to apply fixes that write mesh files too.
+    Arguments are those of :func:`fix_description`.
 
     Raises:
         ConfigError: The configuration is invalid.

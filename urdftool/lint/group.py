@@ -218,11 +218,7 @@ def _combine_fixes(found: Sequence[Finding]) -> tuple[Fix, ...]:
 
 
 class _Edits:
-    """Replacements of which no two overlap.
-
-    Attributes:
-        replacements: The replacements, in the order in which they were added.
-    """
+    """Replacements of which no two overlap."""
 
     def __init__(self) -> None:
         self.replacements: dict[Replacement, None] = {}

@@ -26,15 +26,7 @@ def check_files(
     scheduler: str | None = None,
     on_progress: Callable[[int, int, str], None] | None = None,
 ) -> Iterator[Report]:
-    """Yield a report for each description, in the order given.
-
-    Args:
-        paths: The descriptions.
-        options: Options of the command line.
-        jobs: Number of processes; None chooses by the number of files and cores.
-        scheduler: Address of a Dask scheduler to use instead.
-        on_progress: Called with the number of reports, that of all, and the path of the last.
-    """
+    """Yield a report for each description, in the order given."""
     known: dict[str, Report | None] = {}
     if options.cache is not None:
         known = {path: find_cached_report(path, options) for path in paths}

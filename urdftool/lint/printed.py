@@ -72,13 +72,7 @@ def get_key(code: str, facts: Iterable[object]) -> str:
 def read_printed(
     queries: Queries, key: str, paths: Iterable[str]
 ) -> tuple[int, list[tuple[str, str]]] | None:
-    """Return the exit code and the texts of a run; None if it is absent or not valid any more.
-
-    Args:
-        queries: Present answers to queries.
-        key: Key of the run.
-        paths: Files of the command line.
-    """
+    """Return the exit code and the texts of a run; None if it is absent or not valid any more."""
     try:
         table = queries.load(key)
         if table is None:

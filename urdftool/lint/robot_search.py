@@ -51,13 +51,6 @@ def find_robots(
 ) -> Repository:
     """Find the robots below folders.
 
-    Args:
-        folders: The folders.
-        config: Configuration file named by the user.
-        packages: Folders of ROS packages by name.
-        package_paths: Folders that contain ROS packages.
-        workspace: Access to files.
-
     Raises:
         ConfigError: The configuration is invalid, or names a file that does not exist.
     """

@@ -71,11 +71,6 @@ def check_robot(robot: Robot, options: Options) -> Report:
 def warn_of_renamed(selectors: Iterable[str], path: str | Path, config: str | None) -> None:
     """Warn callers of the Python API of old names of rules and thresholds.
 
-    Args:
-        selectors: Rules named by the caller.
-        path: The description.
-        config: Configuration file; None uses the nearest one above the description.
-
     Raises:
         ConfigError: The configuration cannot be read.
     """

@@ -107,13 +107,7 @@ def _explain_skipped(path: str) -> str:
 def exclude_files(
     files: Sequence[str], named: Collection[str], config: str | None, workspace: Workspace
 ) -> tuple[list[str], list[Report]]:
-    """Return the files to check, and a skipped report for each file matching ``lint.exclude``.
-
-    Args:
-        files: Files found.
-        named: Files named by the user, which are never excluded.
-        config: Configuration file named by the user.
-        workspace: Access to files.
+    """Return the files to check, and reports on those that are excluded unless named by the user.
 
     Raises:
         ConfigError: ``lint.exclude`` is not a list of patterns.

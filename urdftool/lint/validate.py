@@ -164,12 +164,7 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
 
 
 def validate(robot: Robot, purpose: str) -> list[Finding]:
-    """Report what keeps a robot from being used for a purpose, as errors.
-
-    Args:
-        robot: Any robot; one that was not read from a description, too.
-        purpose: A key of ``PURPOSES``.
-    """
+    """Report what keeps a robot from being used for a purpose of ``PURPOSES``, as errors."""
     return [as_error(rule, problem) for rule, problem in find_problems(robot, purpose)]
 
 

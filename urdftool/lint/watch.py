@@ -34,13 +34,7 @@ Stamps = dict[Question, "Stamp | None"]
 
 
 class _Known(NamedTuple):
-    """Last report of a robot.
-
-    Attributes:
-        report: The report.
-        stamps: What it depends on.
-        variants: Sets of xacro arguments for which it was made.
-    """
+    """Last report of a robot."""
 
     report: Report
     stamps: Stamps
@@ -60,13 +54,7 @@ class Watch:
     def check_files(
         self, paths: Sequence[str], options: Options, jobs: int | None = None
     ) -> Iterator[Report]:
-        """Yield a report for each description; one on which nothing changed is not checked again.
-
-        Args:
-            paths: The descriptions.
-            options: Options of the command line.
-            jobs: Not used: few robots change at a time.
-        """
+        """Yield a report for each description; one with no change is not checked again."""
         for path in paths:
             variants = options.variants.get(options.workspace.resolve_links(path))
             known = self._known.get(path)

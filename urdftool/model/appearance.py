@@ -89,13 +89,7 @@ def find_unknown_script(link: Link, visual: Visual) -> str:
 def read_sdf_appearance(
     element: Element, rejected: list[Rejected], part: tuple[str, str]
 ) -> Settings:
-    """Return the appearance of a ``<visual>`` of SDF; its own values count above a script.
-
-    Args:
-        element: The visual.
-        rejected: Receives the elements whose text is not a value.
-        part: Kind and name of its link.
-    """
+    """Return the appearance of a ``<visual>`` of SDF; its own values count above a script."""
     color = COLORS.get(find_script(element))
     named = {} if color is None else convert_color(element, color)
     return named | _add_diffuse(read_sdf_settings(element, APPEARANCE, rejected, part))

@@ -91,14 +91,7 @@ def add_parts(robot: Robot, parts: Iterator[Camera | MountedSensor]) -> None:
 def add_plugin(
     robot: Robot, element: Element, owner: str, provenance: Provenance | None = None
 ) -> None:
-    """Add a plugin, and the sensor of one that measures a link or joint itself.
-
-    Args:
-        robot: The robot.
-        element: The plugin, in SDF or in a ``<gazebo>`` block.
-        owner: Name of its link or joint; empty for the robot.
-        provenance: Location; None for the element.
-    """
+    """Add a plugin, and the sensor of one that measures a link or joint itself."""
     robot.mounted_plugins.append(read_plugin(element, owner, provenance))
     kind = BODY_SENSORS.get(get_library(element))
     if kind is None:

@@ -39,13 +39,7 @@ _JOINTS = ("joints", "joint", "dof_names", "dof_name", "command_joints")
 
 @dataclass(frozen=True, eq=False)
 class Controller:
-    """Controller of a parameter file.
-
-    Attributes:
-        name: Name without namespaces.
-        type: Scalar with the type.
-        parameters: Mapping of the parameters.
-    """
+    """Controller of a parameter file."""
 
     name: str
     type: Node

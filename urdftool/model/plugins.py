@@ -39,13 +39,7 @@ _IGNITION = "ignition-gazebo-"
 def read_plugin(
     element: Element, owner: str = "", provenance: Provenance | None = None
 ) -> MountedPlugin:
-    """Return the plugin of an element.
-
-    Args:
-        element: The element, in SDF or in a ``<gazebo>`` block.
-        owner: Name of its link or joint; empty for the robot.
-        provenance: Location; None for the element.
-    """
+    """Return the plugin of an element."""
     settings: Settings = {}
     for child in element.children:
         _add_parameters(settings, child, "")

@@ -48,14 +48,7 @@ def to_json(
     findings: Iterable[Finding],
     defects: Iterable[Defect] | None,
 ) -> str:
-    """Format the report of a bundle as one object.
-
-    Args:
-        output: Path of the bundle; None if nothing was written.
-        files: The files of ``bundle.json``, by path; empty if the bundle was not written.
-        findings: What the bundle does not contain, and what was changed.
-        defects: Defects that ``--check`` found; None without it.
-    """
+    """Format the report of a bundle as one object."""
     found = None if defects is None else list(defects)
     report = {
         "version": 1,

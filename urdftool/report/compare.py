@@ -87,14 +87,7 @@ def to_json(
     tolerance: float,
     unread: Sequence[Uncompared] = (),
 ) -> str:
-    """Format the changes as one object; lengths [m], angles [rad], masses [kg].
-
-    Args:
-        names: Both files, as given.
-        changes: The differences.
-        tolerance: Tolerance of numbers.
-        unread: Parts that were not read, and so not compared.
-    """
+    """Format the changes as one object; lengths [m], angles [rad], masses [kg]."""
     content = {
         "version": 1,
         "before": names[0],

@@ -33,13 +33,7 @@ def format_warnings(expansion: Expansion, given: Mapping[str, str]) -> list[str]
 def format_unknown_arguments(
     path: str, given: Mapping[str, str], expansion: Expansion | None
 ) -> list[str]:
-    """Return a line for each undeclared argument.
-
-    Args:
-        path: Path of the description.
-        given: Values of the arguments.
-        expansion: Result of xacro; None for plain URDF, which has no arguments.
-    """
+    """Return a line for each undeclared argument."""
     return [
         format_unknown_argument(path, name, declared)
         for name, declared in list_unknown_arguments(given, expansion).items()

@@ -21,16 +21,7 @@ def to_json(
     not_compared: Sequence[str] = (),
     not_read: Sequence[Finding] = (),
 ) -> str:
-    """Format the report of an export as one object.
-
-    Args:
-        output: Path of the output; None if nothing was written.
-        files: Exported files.
-        findings: Losses, or the defects that prevented the export.
-        checks: Results of the verification; empty if it was not requested.
-        not_compared: Parts that the verification does not compare.
-        not_read: What the robot does not hold of its source, which is not compared either.
-    """
+    """Format the report of an export as one object."""
     report = {
         "version": 1,
         "output": output,
@@ -47,13 +38,7 @@ def to_json(
 def format_check_table(
     checks: Sequence[Check], not_compared: Sequence[str] = (), not_read: Sequence[Finding] = ()
 ) -> str:
-    """Format comparisons as a table, followed by the differences and the parts not compared.
-
-    Args:
-        checks: Results of the verification.
-        not_compared: Parts that the verification does not compare.
-        not_read: What the robot does not hold of its source, which is not compared either.
-    """
+    """Format comparisons as a table, followed by the differences and the parts not compared."""
     rows = [("check", "compared", "worst", "tolerance", "verdict")]
     lines: list[str] = []
     for check in checks:

@@ -12,13 +12,7 @@ NO_FILE = "/dev/null"
 
 
 def format_file_diff(path: str, before: bytes | None, after: bytes) -> str:
-    """Return a unified diff of a text file, or one line for a binary file.
-
-    Args:
-        path: Name of the file in the diff.
-        before: Previous content; None if the file did not exist.
-        after: New content.
-    """
+    """Return a unified diff of a text file, or one line for a binary file."""
     if b"\0" in after or b"\0" in (before or b""):
         was = "new" if before is None else f"{len(before)} bytes →"
         return f"binary file {path}: {was} {len(after)} bytes\n"
@@ -38,15 +32,7 @@ Opcode = tuple[str, int, int, int, int]
 def format_unified_lines(
     old: Sequence[str], new: Sequence[str], before: str, after: str, *, around: int = 3
 ) -> Iterator[str]:
-    """Yield the lines of a unified diff; only the headers have added line ends.
-
-    Args:
-        old: Previous lines.
-        new: New lines.
-        before: Name of the previous version.
-        after: Name of the new version.
-        around: Number of context lines around a change.
-    """
+    """Yield the lines of a unified diff; only the headers have added line ends."""
     matcher: SequenceMatcher[str] = SequenceMatcher(None, [], [])
     matcher.opcodes = _get_opcodes(old, new)  # type: ignore[attr-defined]
     for number, group in enumerate(matcher.get_grouped_opcodes(around)):

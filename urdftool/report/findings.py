@@ -58,14 +58,7 @@ def is_cut(finding: Finding) -> bool:
 def format_full(
     findings: Iterable[Finding], *, colors: bool = False, whole: bool = True, cut: bool = False
 ) -> Iterator[str]:
-    """Yield headline, source, effects in readers, macro calls and hint of each finding.
-
-    Args:
-        findings: The findings.
-        colors: Whether to color the text.
-        whole: Whether to list all members of a group, or only some and the number of the others.
-        cut: Whether to cut lists of names in long messages and remarks.
-    """
+    """Yield headline, source, effects in readers, macro calls and hint of each finding."""
     paint = Painter(colors)
     for finding in findings:
         yield from _wrap(_format_headline(finding, paint, cut))

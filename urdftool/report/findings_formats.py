@@ -24,20 +24,7 @@ def as_text(
     pictures: Mapping[str, bytes | str] = MappingProxyType({}),
     fixes: Mapping[str, Any] | None = None,
 ) -> str:
-    """Format a run.
-
-    Args:
-        outcome: The run.
-        style: ``full``, ``concise``, ``json``, ``sarif``, ``github``, ``junit`` or ``html``.
-        colors: Whether to color the text.
-        fail_on: Lowest severity that fails the run.
-        statistics: Count findings by rule instead.
-        whole: Whether ``full`` and ``concise`` list every finding, or at most a screen for each
-            family of rules.
-        cut: Whether ``full`` and ``concise`` cut lists of names in long messages.
-        pictures: PNG files of robots for ``html``, by path, or the reason why there is none.
-        fixes: Record of the applied and refused fixes, for ``json``.
-    """
+    """Format a run."""
     if statistics:
         return _format_joined(count_by_rule(outcome))
     if style in ("full", "concise"):

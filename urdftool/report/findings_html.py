@@ -33,13 +33,7 @@ _LONGEST_LINE = 400  # characters of a line that is shown; chosen
 
 
 def to_html(outcome: Outcome, pictures: Mapping[str, bytes | str] = MappingProxyType({})) -> str:
-    """Format a run as a page: findings by severity, with filters, and the pages of their rules.
-
-    Args:
-        outcome: The run.
-        pictures: PNG file of a robot with its findings by path of the description, or the reason
-            why there is none.
-    """
+    """Format a run as a page: findings by severity, with filters, and the pages of their rules."""
     by_level: dict[Severity, list[Finding]] = {}
     for finding in sort_by_severity(outcome.findings):
         by_level.setdefault(finding.severity, []).append(finding)

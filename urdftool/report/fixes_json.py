@@ -15,14 +15,7 @@ from .findings_json import fix_record
 def build_fixes_record(
     done: FixResult, *, unsafe: bool, meshes: bool, written: bool
 ) -> dict[str, Any]:
-    """Return the fixes of a run.
-
-    Args:
-        done: Result of the fixes.
-        unsafe: Whether unsafe fixes were asked for.
-        meshes: Whether fixes that write meshes were asked for.
-        written: Whether the files were written, or the changes only shown.
-    """
+    """Return the fixes of a run."""
     refused = [*_list_refused(done), *_list_waiting(done, unsafe=unsafe, meshes=meshes)]
     refused += _list_without_library(done)
     return {

@@ -22,12 +22,7 @@ _DEEPEST = 40  # levels of the tree that are indented; chosen
 
 @dataclass
 class _Branch:
-    """A line of the tree, and the lines below it.
-
-    Attributes:
-        parts: Texts of the line, each with its style.
-        below: Its branches.
-    """
+    """A line of the tree, and the lines below it."""
 
     parts: list[_Part]
     below: list[_Branch] = field(default_factory=list)

@@ -129,10 +129,6 @@ def _load_sources() -> dict[str, dict[str, str]]:
 def get_effect_source(rule: str, readers: str) -> str:
     """Get the evidence for the effect of a rule on readers.
 
-    Args:
-        rule: Name of the rule, such as ``zero-axis``.
-        readers: The key of the effect, such as ``mujoco, drake``.
-
     Returns:
         Such as ``run: MuJoCo 4.0.0`` or ``source: REPOSITORY FILE``; empty if there is none.
     """

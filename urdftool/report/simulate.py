@@ -209,14 +209,7 @@ def to_json(
     timings: bool = False,
     comparison: EngineComparison | None = None,
 ) -> str:
-    """Format all results with the time series as JSON; meters, radians, kilograms, seconds.
-
-    Args:
-        robot: The robot.
-        verdicts: One for each trial.
-        timings: Whether to add the processor time of each trial, which differs between runs.
-        comparison: Comparison of two engines, if there are two.
-    """
+    """Format all results with the time series as JSON; meters, radians, kilograms, seconds."""
     document: dict[str, Any] = {
         "version": 1,
         "name": robot.name,

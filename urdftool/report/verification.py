@@ -194,13 +194,7 @@ def _describe_verdict(agreement: Agreement) -> str:
 
 
 def summarize(paths: Sequence[str], agreement: Agreement, totals: Sequence[int]) -> str:
-    """Return one sentence with the verdict.
-
-    Args:
-        paths: Paths of the robots, as given.
-        agreement: The result.
-        totals: Number of joints of each robot that are not fixed.
-    """
+    """Return one sentence with the verdict."""
     entries = [entry for entry in agreement.list_disagreements() if not entry.is_convention]
     robots = f"{len(paths)} robots"
     if not entries:

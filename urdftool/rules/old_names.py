@@ -41,13 +41,7 @@ _FIRST_NAMES = MappingProxyType({new: old for old, new in RENAMED_RULES.items()}
 
 
 class OldName(NamedTuple):
-    """Use of an old name.
-
-    Attributes:
-        kind: ``rule`` or ``threshold``.
-        old: The name used.
-        new: The present name.
-    """
+    """Use of an old name."""
 
     kind: str
     old: str

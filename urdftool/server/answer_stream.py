@@ -21,12 +21,7 @@ class AnswerStream:
     """
 
     def __init__(self, descriptor: int, limit: int = MAX_UNSENT) -> None:
-        """Start the thread.
-
-        Args:
-            descriptor: File descriptor to write to.
-            limit: Maximum size of what is unread [bytes].
-        """
+        """Start the thread."""
         self._descriptor, self._limit = descriptor, limit
         self._parts: deque[bytes] = deque()
         self._unsent = 0

@@ -54,13 +54,7 @@ class Checks:
     def __init__(
         self, knowledge: Knowledge, emit: Callable[[Any], None], poll: Callable[[], None]
     ) -> None:
-        """Create checks.
-
-        Args:
-            knowledge: State of the process; what is read is stored in it.
-            emit: Receives the findings of each robot.
-            poll: Called between rules; raises an exception to end the check.
-        """
+        """Create checks."""
         self.knowledge, self._emit, self._poll = knowledge, emit, poll
 
     def check(self, paths: Iterable[str]) -> dict[str, list[str]]:

@@ -40,14 +40,7 @@ class TextChange(NamedTuple):
 
 
 def make_change(start: Point, end: Point, text: str, encoding: str) -> TextChange:
-    """Return the change that replaces a range by a text.
-
-    Args:
-        start: First position that is replaced.
-        end: Position after the last.
-        text: The new text.
-        encoding: Unit of columns: ``utf-8``, ``utf-16`` or ``utf-32``.
-    """
+    """Return the change that replaces a range by a text."""
     lines = _LINE_END.split(text)
     column = count_units(lines[-1], encoding) + (start[1] if len(lines) == 1 else 0)
     return TextChange(start, end, (start[0] + len(lines) - 1, column))

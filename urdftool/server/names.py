@@ -41,13 +41,7 @@ def get_names(knowledge: Knowledge, path: str) -> Names:
 
 
 class Names:
-    """Names in the files that the robots of a file have.
-
-    Attributes:
-        knowledge: Open documents and robots.
-        tables: Names of each file, by resolved path.
-        descriptions: Description and robot of each set of arguments.
-    """
+    """Names in the files that the robots of a file have."""
 
     def __init__(self, knowledge: Knowledge, path: str) -> None:
         """Index the names of the robots that a file belongs to."""

@@ -22,12 +22,7 @@ class RefusedRename(UrdftoolError):  # noqa: N818 -- reads as what happened
 
 
 class SourceEdits:
-    """Edits by file.
-
-    Attributes:
-        knowledge: Open documents and robots.
-        paths: Resolved paths of the files that are edited.
-    """
+    """Edits by file."""
 
     def __init__(self, knowledge: Knowledge) -> None:
         """Create no edits."""
@@ -98,12 +93,6 @@ def prove(
     knowledge: Knowledge, edits: SourceEdits, names: NewNames, arguments: Mapping[str, str]
 ) -> None:
     """Read each robot with the edits, and compare it with the robot before.
-
-    Args:
-        knowledge: Open documents and robots.
-        edits: The edits.
-        names: What must be different.
-        arguments: New names of xacro arguments.
 
     Raises:
         RefusedRename: A robot cannot be read, or something else is different.

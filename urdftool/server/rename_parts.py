@@ -42,13 +42,6 @@ def rename_parts(
 ) -> None:
     """Rename the links, joints or materials that a name means in each expansion.
 
-    Args:
-        names: Names of the robots of the document.
-        word: The name.
-        span: Its bytes that are replaced: all, or a part that is not computed.
-        new: The new text of these bytes.
-        edits: Receives the edits.
-
     Raises:
         RefusedRename: A reference is computed, or the name is taken.
     """
@@ -119,20 +112,10 @@ def _sort_names(robot: Robot, word: Word, mapping: Mapping[str, str]) -> NewName
 
 
 class _Renaming:
-    """Edits that change the names of parts of several robots.
-
-    Attributes:
-        changes: New values of expanded elements.
-    """
+    """Edits that change the names of parts of several robots."""
 
     def __init__(self, names: Names, part: tuple[str, str], edits: SourceEdits) -> None:
-        """Create no edits.
-
-        Args:
-            names: Names of the robots.
-            part: Text that is not computed, in names that are, and its new text.
-            edits: Receives the edits.
-        """
+        """Create no edits."""
         self.names, self.part, self.edits = names, part, edits
         self.changes: dict[tuple[int, str], str] = {}
         self._kept: list[Any] = []  # objects whose id() is a key

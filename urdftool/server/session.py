@@ -49,12 +49,6 @@ class Session:
     ) -> Any:
         """Return the answer to a message, as JSON.
 
-        Args:
-            method: Name of the question.
-            params: Its parameters.
-            emit: Receives parts of the answer before it is complete.
-            poll: Called between rules; raises an exception to end the check.
-
         Raises:
             UrdftoolError: It cannot be answered.
         """

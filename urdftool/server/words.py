@@ -69,11 +69,7 @@ class Word(NamedTuple):
 
 
 class WordTable:
-    """Names of one document.
-
-    Attributes:
-        words: All of them.
-    """
+    """Names of one document."""
 
     def __init__(self, document: Document) -> None:
         """Find the names of a document."""

@@ -36,12 +36,7 @@ def _write(descriptor: int, data: bytes) -> None:
 
 
 class Worker:
-    """Answers to messages.
-
-    Attributes:
-        inbox: Messages that arrive.
-        send: Sends bytes to the other process.
-    """
+    """Answers to messages."""
 
     def __init__(self, inbox: Inbox, send: Callable[[bytes], None]) -> None:
         """Create a worker without documents."""

@@ -79,11 +79,6 @@ class WorkerProcess:
         """Ask a question and return its answer; None if there is none.
 
         What waits when the process ends is asked again, except for a question that does not end.
-
-        Args:
-            method: Name of the question.
-            params: Its parameters, as JSON.
-            receive: Called with each part of the answer.
         """
         for _ in range(_TRIES):
             await self._ensure_started()

@@ -71,15 +71,7 @@ def render_animation(
     size: tuple[int, int] = FILM,
     progress: Progress = lambda *_: None,
 ) -> bytes:
-    """Render a run as a GIF, from a fixed camera.
-
-    Args:
-        run: A run.
-        shapes: Shapes of the robot.
-        camera: Camera.
-        size: Width and height in pixels.
-        progress: Receives the number of each frame and their count.
-    """
+    """Render a run as a GIF, from a fixed camera."""
     view = _view(run, shapes, camera or Camera(), size)
     frames: list[Image] = []
     seconds: list[float] = []

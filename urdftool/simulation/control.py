@@ -88,12 +88,7 @@ class Pids:
         self.efforts: Array = np.zeros(len(gains))
 
     def step(self, positions: Array, rates: Array) -> Array:
-        """Compute the effort of each joint for the next step [N·m, N].
-
-        Args:
-            positions: Joint positions [rad, m].
-            rates: Joint velocities [rad/s, m/s].
-        """
+        """Compute the effort of each joint for the next step [N·m, N]."""
         errors = self._target - positions
         turn = (errors + math.pi) % (2 * math.pi) - math.pi
         error = np.where(self._by_position, np.where(self._turning, turn, errors), -rates)

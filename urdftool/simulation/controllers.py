@@ -35,12 +35,7 @@ _INTERFACES = ("position", "velocity", "effort")
 
 @dataclass(frozen=True)
 class Controls:
-    """Contents of a controller file.
-
-    Attributes:
-        joints: Control of joints by name.
-        notes: Messages about ignored parts of the file.
-    """
+    """Contents of a controller file."""
 
     joints: dict[str, Control]
     notes: tuple[str, ...]
@@ -49,11 +44,7 @@ class Controls:
 def read_controllers(path: str, robot: Robot, *, strict: bool = False) -> Controls:
     """Read the controllers of a robot from a file.
 
-    Args:
-        path: Path of the file.
-        robot: The robot.
-        strict: Whether to refuse controllers of unknown type; otherwise their joints are not
-            actuated.
+    Without ``strict``, joints of a controller of unknown type are not actuated.
 
     Raises:
         ConfigError: The file has no controllers; a controller has no joints or gains, or a joint is

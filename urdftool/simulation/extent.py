@@ -42,13 +42,7 @@ class Extent:
 
 
 def measure_extent(robot: Robot, name: str, *, only_collisions: bool = False) -> Extent:
-    """Measure the extent of a link; shapes that cannot be read are skipped.
-
-    Args:
-        robot: The robot, read from a description.
-        name: Name of the link.
-        only_collisions: Whether to skip visuals, which may take long to read.
-    """
+    """Measure the extent of a link; shapes that cannot be read are skipped."""
     link = robot.link[name]
     groups: list[list[Collision] | list[Visual]] = [link.collisions]
     if not only_collisions:

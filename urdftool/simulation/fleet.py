@@ -60,14 +60,7 @@ class Row:
 
 
 def make_row(path: str, name: str, verdicts: Sequence[Verdict], more: Sequence[Fault] = ()) -> Row:
-    """Make the row of a simulated robot.
-
-    Args:
-        path: Path of the description.
-        name: Name of the robot.
-        verdicts: Verdicts of all trials and engines, at least one.
-        more: Additional faults.
-    """
+    """Make the row of a simulated robot."""
     faults: dict[tuple[str, str], Fault] = {}
     for fault in (*(fault for verdict in verdicts for fault in verdict.faults), *more):
         known = faults.get((fault.code, fault.name))

@@ -29,13 +29,7 @@ class HullCache:
     def get_or_compute(
         self, path: Path, facts: Sequence[object], make: Callable[[], list[Cloud]]
     ) -> list[Cloud]:
-        """Return the cached result for the bytes of a file, or compute and cache it.
-
-        Args:
-            path: Mesh file; ``make`` reports one that cannot be read.
-            facts: Other values that the result depends on.
-            make: Computes the result from the file.
-        """
+        """Return the cached result for the bytes of a file, or compute and cache it."""
         key = None if self._store.folder is None else _get_key(path, facts)
         if key is None:
             return make()

@@ -34,15 +34,7 @@ _FIRST = 32
 def measure_penetration_depth(
     robot: Robot, snapshot: StateSnapshot, one: str, other: str, least: float = 0.0
 ) -> float | None:
-    """Measure the penetration depth of two links [m]; None if that of the engine is exact.
-
-    Args:
-        robot: The robot, read from a description.
-        snapshot: State of the robot.
-        one: Name of a link.
-        other: Name of a link of another body.
-        least: A smaller depth may be returned as 0 [m], which is faster.
-    """
+    """Measure the penetration depth of two links [m]; None if that of the engine is exact."""
     pairs = [robot.link[name].collisions for name in (one, other)]
     if not any(isinstance(shape.geometry, Mesh) for shapes in pairs for shape in shapes):
         return None
@@ -56,13 +48,6 @@ def measure_triangle_penetration(
     """Measure the penetration depth of two links by triangles [m]; None if a mesh cannot be read.
 
     Planes, which have no triangles, are left out.
-
-    Args:
-        robot: The robot, read from a description.
-        poses: Poses of the two links by name, in one frame.
-        one: Name of a link.
-        other: Name of the other link.
-        least: A smaller depth may be returned as 0 [m], which is faster.
     """
     try:
         mine, others = (

@@ -87,13 +87,7 @@ def plot(title: str, runs: Sequence[Run]) -> bytes:
 
 
 def draw_panels(title: str, panels: Sequence[Panel], at_rest: float | None = None) -> bytes:
-    """Draw panels one below the other over one time axis, as a PNG file.
-
-    Args:
-        title: Title of the figure.
-        panels: Panels from top to bottom.
-        at_rest: Time of a vertical line [s]; None for none.
-    """
+    """Draw panels one below the other over one time axis, as a PNG file."""
     data = _render(title, panels, at_rest)
     # Matplotlib leaves reference cycles to the frames of its callers, and so to hulls of
     # manifold3d, which prints a list of live objects when Python ends

@@ -86,18 +86,7 @@ def read_description(
     workspace: Workspace | None = None,
     finder: Packages | None = None,
 ) -> Description:
-    """Read a description, and expand it if it is xacro.
-
-    Args:
-        path: A ``.urdf`` or ``.xacro`` file, or ``-`` for standard input.
-        arguments: Values of xacro arguments.
-        packages: Folders by package name.
-        package_paths: Folders that contain packages.
-        configured: Folders by package name, from the configuration.
-        file: The file, if it has been read.
-        gltf_up: Up axis of glTF meshes.
-        workspace: Access to files; None creates a new one.
-        finder: Finder of packages; None creates one of the packages and the workspace.
+    """Read a description (``-``: standard input), and expand it if it is xacro.
 
     Raises:
         SourceError: It, or an included file, cannot be read or expanded.

@@ -77,16 +77,7 @@ def expand_job(
     included: list[SourceFile],
     prepared: Prepared,
 ) -> None:
-    """Expand a description in this process, which is restricted, and send the result.
-
-    Args:
-        job: Path, encoding and arguments of the description, and what is to be recorded.
-        data: Bytes of the description.
-        channel: Channel to the side that reads files.
-        mark: Memory for the location of an element, or None.
-        included: Files of which the content is known.
-        prepared: Answers and expressions that are known.
-    """
+    """Expand a description in this process, which is restricted, and send the result."""
     from .xacro_hooks import Run
 
     file = SourceFile(str(job["path"]), data, str(job["encoding"]))

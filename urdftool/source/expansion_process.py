@@ -63,10 +63,6 @@ class _RequiresModules(Exception):  # noqa: N818
 def expand(result: Expansion, packages: Packages) -> None:
     """Expand a description in a separate process.
 
-    Args:
-        result: Expansion with its file and arguments; the result is stored in it.
-        packages: Finder of its packages and files.
-
     Raises:
         SourceError: The expansion failed, or exceeded a limit.
     """

@@ -27,14 +27,7 @@ class RequestedFiles:
     def __init__(
         self, files: list[SourceFile], answers: dict[Words, Any], channel: Channel, mark: Any
     ) -> None:
-        """Create the side that requests.
-
-        Args:
-            files: The description, and the files of which the content is known.
-            answers: Answers to requests that are known.
-            channel: Channel to the other side.
-            mark: Memory for the location of an element.
-        """
+        """Create the side that requests."""
         self.files = files
         self._indices = {id(file): index for index, file in enumerate(files)}
         self._answers = answers

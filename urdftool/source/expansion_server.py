@@ -60,12 +60,7 @@ class ExpansionServer:
         *,
         at_once: bool = False,
     ) -> None:
-        """Create the object; the process starts with the first preparation after an expansion.
-
-        Args:
-            start: Starts the process with its end of a connection; a new interpreter by default.
-            at_once: Whether it starts also before the first expansion.
-        """
+        """Create the object; the process starts with the first preparation after an expansion."""
         self._is_needed = at_once
         self._starts = 0
         self.used = self.prepared = 0.0
@@ -93,13 +88,7 @@ class ExpansionServer:
         return sys.platform == "linux" and os.getpid() == self._owner
 
     def keep(self, files: Sequence[SourceFile], texts: Iterable[str], *, trusted: bool) -> None:
-        """Keep what an expansion used for the processes that are prepared from now on.
-
-        Args:
-            files: Files that it included.
-            texts: Expressions that it compiled.
-            trusted: Whether these may use all of Python's syntax.
-        """
+        """Keep what an expansion used for the processes that are prepared from now on."""
         self._is_needed = True
         for file in files:
             key = file.path, file.data
@@ -168,14 +157,7 @@ class ExpansionServer:
         files: Sequence[SourceFile],
         answers: dict[tuple[str, ...], Any],
     ) -> ServedExpansion | None:
-        """Give the waiting process a description, and return it; None if that is not possible.
-
-        Args:
-            job: What is to be done; its ``modules`` are those that the expansion imports.
-            data: Bytes of the description.
-            files: The description and the files that it includes, as far as they are known.
-            answers: Answers to requests that are known.
-        """
+        """Give the waiting process a description, and return it; None if that is not possible."""
         if not self.is_usable or not self._is_needed:
             return None
         try:

@@ -43,11 +43,6 @@ class InstallRule(NamedTuple):
 def read_install_rules(package_dir: Path, name: str, workspace: Workspace) -> list[InstallRule]:
     """Read the install rules of a package with a destination below its share folder.
 
-    Args:
-        package_dir: Folder of its CMakeLists.txt.
-        name: Name of the package.
-        workspace: Access to files.
-
     Returns:
         Rules in the order of the file; empty without a CMakeLists.txt.
     """
@@ -124,13 +119,7 @@ def _install(package_dir: Path, share: str, words: list[str]) -> list[InstallRul
 
 
 def find_installed(rules: list[InstallRule], relative: str, workspace: Workspace) -> Path | None:
-    """Return the source file that is installed at a path below the share folder; None if none is.
-
-    Args:
-        rules: Result of :func:`read_install_rules`.
-        relative: A path below ``share/NAME``, with forward slashes.
-        workspace: Access to files.
-    """
+    """Return the source file that is installed at a path below the share folder, or None."""
     parts = Path(relative).parts
     for rule in rules:
         target = Path(rule.target).parts

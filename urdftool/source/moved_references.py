@@ -25,12 +25,6 @@ def move_references(
 ) -> bytes:
     """Return a description with the relative names of its meshes, textures and includes adjusted.
 
-    Args:
-        file: The description as it is to be written, URDF or xacro.
-        elements: Elements of the robot, expanded.
-        here: Folder to which the names are relative, without links.
-        folder: Folder to which they are to be relative, without links.
-
     Raises:
         SourceError: A relative name is computed, or written in an included file, so that it cannot
             be adjusted; or the encoding is not supported for edits.

@@ -121,11 +121,6 @@ class ConfiguredFolder:
     """Folder of a package in a configuration file that was found near the description.
 
     It came with the description, so it may name only folders of the project, and below itself.
-
-    Attributes:
-        folder: The folder.
-        file: The configuration file.
-        line: Line of the entry.
     """
 
     folder: Path
@@ -153,15 +148,7 @@ class Packages:
         configured: Mapping[str, str | Path | ConfiguredFolder] | None = None,
         workspace: Workspace | None = None,
     ) -> None:
-        """Store the search paths; the search starts on demand.
-
-        Args:
-            file: The description.
-            named: Folders by package name, from ``--package``.
-            paths: Folders that contain packages, from ``--package-path``.
-            configured: Folders by package name, from the configuration.
-            workspace: Access to files; None creates a new one.
-        """
+        """Store the search paths; the search starts on demand."""
         self.files = (workspace or Workspace()).restrict(None)
         self.access = FileAccess(self)
         self._given = "-" if file is None else str(file)
@@ -423,9 +410,6 @@ class Packages:
 
     def find_installed(self, path: str | Path) -> Path:
         """Return the source file that is installed at a path inside a found package.
-
-        Args:
-            path: An absolute path, such as the expansion of ``$(find NAME)/urdf/arm.xacro``.
 
         Returns:
             The path itself if it exists or no install rule applies to it.

@@ -14,10 +14,6 @@ def list_unknown_arguments(
 ) -> dict[str, tuple[str, ...]]:
     """Return the given arguments that a description neither declares nor uses.
 
-    Args:
-        given: Values by name of the argument.
-        expansion: Result of xacro; None for plain URDF, which has no arguments.
-
     Returns:
         The declared names by unknown name.
     """

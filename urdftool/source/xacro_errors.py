@@ -22,15 +22,7 @@ def explain(
     result: Expansion,
     files: Files,
 ) -> UrdftoolError:
-    """Convert an error of xacro to a :class:`UrdftoolError`.
-
-    Args:
-        error: The exception.
-        node: Element that xacro was processing.
-        failed_text: Text or expression whose evaluation failed, if any.
-        result: Files and definitions read so far.
-        files: Finds similar names.
-    """
+    """Convert an error of xacro to a :class:`UrdftoolError`."""
     at = None if node is None else _place(node, failed_text, find_unknown_parameter(error))
     for cause in list_causes(error):
         if isinstance(cause, UrdftoolError) and cause.line is None and at is not None:

@@ -48,14 +48,7 @@ class Run:
         trusted: bool,
         codes: Mapping[str, Expression] | None = None,
     ) -> None:
-        """Set where the result goes and what may be read.
-
-        Args:
-            result: Expansion with its file and arguments.
-            files: Files, packages and variables.
-            trusted: Whether expressions may use all of Python's syntax.
-            codes: Expressions by text that are compiled.
-        """
+        """Set where the result goes and what may be read."""
         self.result = result
         self.files = files
         self.trusted = trusted

@@ -50,12 +50,7 @@ def make_symbols(
 
 
 def make_ros1_evaluation(ros: Any, *, trusted: bool) -> Callable[[str, dict[str, Any]], str]:
-    """Return a function for ``$(eval …)`` with the names that ROS 1 defines for it.
-
-    Args:
-        ros: xacro's module ``substitution_args``.
-        trusted: Whether the input is trusted.
-    """
+    """Return a function for ``$(eval …)`` with the names that ROS 1 defines for it."""
 
     def evaluate(text: str, context: dict[str, Any]) -> str:
         arguments = context.setdefault("arg", {})

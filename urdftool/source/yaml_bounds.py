@@ -19,11 +19,6 @@ def check_yaml(text: str, name: str, loader: Any) -> Any:
     Counts the events of the parser without storing them: nested lists would overflow the stack in
     libyaml, and aliases or merges of aliases may grow exponentially.
 
-    Args:
-        text: The text.
-        name: Path of the file, for messages.
-        loader: Loader class to be used.
-
     Raises:
         XacroError: It exceeds the limits of depth or size, or contains itself.
         YAMLError: It is not valid YAML.

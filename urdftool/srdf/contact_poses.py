@@ -36,13 +36,6 @@ def find_disabled_contacts(
 ) -> list[PairPose]:
     """Find the pairs that an SRDF file disables, unintended, and that can touch.
 
-    Args:
-        robot: Robot.
-        path: The SRDF, which may be xacro.
-        arguments: xacro arguments; ignored for a file that is not xacro.
-        options: How long each pair is looked at; its pairs are ignored.
-        progress: Called when two bodies are begun.
-
     Raises:
         SourceError: The SRDF cannot be read.
         ModelError: It is not an SRDF, or of another robot.
@@ -56,11 +49,6 @@ def find_disabled_contacts(
 
 def read_srdf_of(robot: Robot, path: str | Path, arguments: dict[str, str]) -> SemanticDescription:
     """Read an SRDF, and check that it belongs to a robot.
-
-    Args:
-        robot: Robot.
-        path: The SRDF, which may be xacro.
-        arguments: xacro arguments; ignored for a file that is not xacro.
 
     Raises:
         SourceError: The SRDF cannot be read.

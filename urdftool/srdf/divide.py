@@ -84,14 +84,7 @@ class Divider:
     """Proof for two bodies that looks for no contact."""
 
     def __init__(self, chain: Chain, covers: Covers, outcomes: dict[Pair, Outcome]) -> None:
-        """Store the bodies.
-
-        Args:
-            chain: Joints between them.
-            covers: Covers of both.
-            outcomes: What is known of the links to compare, by their indices; other proofs of the
-                same links may share it.
-        """
+        """Store the bodies."""
         self.chain, self.covers, self.pairs = chain, covers, list(outcomes)
         self.outcomes = outcomes
         self.boxes, self.check = 0, CHECKED

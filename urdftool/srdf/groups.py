@@ -77,10 +77,6 @@ def add_groups(content: SemanticDescription, found: PlanningGroups) -> None:
 def find_groups(robot: Robot, given: Sequence[GivenGroup] = ()) -> PlanningGroups:
     """Find the planning groups of a robot.
 
-    Args:
-        robot: A robot with one root.
-        given: Groups that replace found chains with the same joints.
-
     Raises:
         ConfigError: A given group has no chain with actuated joints, or its name is used twice.
     """

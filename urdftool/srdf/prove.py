@@ -65,15 +65,7 @@ class Prover(Divider):
         contacts: Contacts,
         seed: int = 0,
     ) -> None:
-        """Store the bodies.
-
-        Args:
-            chain: Joints between them.
-            covers: Covers of both.
-            pairs: Indices of the links to compare.
-            contacts: Tests of contact.
-            seed: Of the random poses.
-        """
+        """Store the bodies."""
         super().__init__(chain, covers, {pair: Outcome() for pair in pairs})
         self.contacts = contacts
         self.random = np.random.default_rng(seed)

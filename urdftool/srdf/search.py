@@ -26,12 +26,7 @@ _FIRST, _LAST = 0.25, 1e-4
 
 
 def search(prover: Prover, outcomes: Mapping[tuple[int, int], Outcome]) -> None:
-    """Search for a pose at which each open pair touches; store it, or the smallest distance.
-
-    Args:
-        prover: The bodies, and random numbers with a fixed seed.
-        outcomes: Outcomes of the proof; changed.
-    """
+    """Search for a pose at which each open pair touches; store it, or the smallest distance."""
     for pair, outcome in outcomes.items():
         if not outcome.is_free and outcome.witness is None:
             _search_pair(prover, pair, outcome)

@@ -138,11 +138,6 @@ def decide(
 
     The result does not depend on the number of processes. A time limit turns pairs into open ones.
 
-    Args:
-        robot: Robot whose links form trees.
-        options: What is proved, and how long; None for the defaults.
-        progress: Called when two bodies are begun.
-
     Raises:
         MissingDependency: python-fcl is not installed.
     """

@@ -18,12 +18,7 @@ _INDENT = "  "
 
 
 def format_srdf(content: SemanticDescription, comments: tuple[str, ...] = ()) -> str:
-    """Format an SRDF.
-
-    Args:
-        content: Content, written in the order of MoveIt's Setup Assistant.
-        comments: Texts of comments at the start of the file.
-    """
+    """Format an SRDF."""
     lines = ['<?xml version="1.0" encoding="UTF-8"?>']
     lines += [format_comment(text) for text in comments]
     lines.append(f"<robot {_format_attributes(name=content.name)}>")

@@ -70,12 +70,6 @@ def compute_viewpoint(
 def lay_ground(scene: viser.SceneApi, size: float, height: float, shown: bool) -> float:
     """Draw a grid around the origin, in cells of 1, 2 or 5 times a power of ten.
 
-    Args:
-        scene: The scene.
-        size: Size of the robot [m].
-        height: Height of the ground [m].
-        shown: Whether it is visible.
-
     Returns:
         Width of a cell [m].
     """

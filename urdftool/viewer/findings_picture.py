@@ -79,15 +79,6 @@ def draw_findings(
 ) -> Image:
     """Draw a robot in gray, links with findings in the color of the most severe, and labels.
 
-    Args:
-        robot: Robot.
-        shapes: Its triangles.
-        poses: Poses of the links in the world [m], by name.
-        findings: Findings of the robot; the most severe ones get a label, and the number of the
-            others is written below.
-        camera: Direction of view; it is fitted to the robot between the labels.
-        size: Width and height in pixels.
-
     Returns:
         Pixels, shape (height, width, 3).
     """

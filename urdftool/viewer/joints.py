@@ -31,15 +31,7 @@ class Joints:
         safely: Callable[..., None],
         start: Mapping[str, float],
     ) -> None:
-        """Create the buttons; sliders are created with a robot.
-
-        Args:
-            gui: GUI of the page.
-            tab: Tab for the sliders.
-            moved: Called with the positions of all joints [rad or m] when some have changed.
-            safely: Calls a function with arguments, serialized and with errors handled.
-            start: Initial positions, which may be outside the limits.
-        """
+        """Create the buttons; sliders are created with a robot."""
         self._gui, self._tab, self._moved, self._safely = gui, tab, moved, safely
         self._start = dict(start)
         self._positions: dict[str, float] = dict(start)
@@ -121,12 +113,7 @@ class Joints:
             self.move({slider.name: slider.clamp_position(handle.value)}, leader=slider.name)
 
     def move(self, requested: Mapping[str, float], leader: str = "") -> None:
-        """Move joints [rad or m] and the joints that mimic them; the others stay.
-
-        Args:
-            requested: Positions by name.
-            leader: The joint whose slider is already updated.
-        """
+        """Move joints [rad or m] and the joints that mimic them; the others stay."""
         if self._robot is None:
             return
         free = {slider.name for slider in self._list_free()}

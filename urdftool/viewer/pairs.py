@@ -29,14 +29,7 @@ class Pairs:
         chosen: Callable[[PairPose | None], None],
         safely: Callable[..., None],
     ) -> None:
-        """Create the tab, which reports that the pairs are compared.
-
-        Args:
-            gui: GUI of the page.
-            tab: Tab of the pairs.
-            chosen: Called with the pair that the user chooses; None for none.
-            safely: Calls a function with arguments, serialized and with errors handled.
-        """
+        """Create the tab, which reports that the pairs are compared."""
         self._chosen, self._safely = chosen, safely
         self._pairs: dict[str, PairPose] = {}
         with tab:

@@ -59,15 +59,7 @@ class RobotScene:
         *,
         root: str = "/robot",
     ) -> None:
-        """Create the nodes of the links; nothing is shown yet.
-
-        Args:
-            scene: The scene.
-            robot: The robot.
-            load: Returns the triangles of ``"visual"`` or ``"collision"``.
-            clicked: Called with the link whose surface the user clicks.
-            root: Name of the node above all others.
-        """
+        """Create the nodes of the links; nothing is shown yet."""
         self.scene, self.robot = scene, robot
         self.shapes: dict[str, Shapes] = {}
         self._load, self._clicked = load, clicked

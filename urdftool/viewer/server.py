@@ -118,12 +118,6 @@ def is_free(host: str, port: int) -> bool:
 def start(host: str, port: int, token: str, title: Callable[[], str]) -> viser.ViserServer:
     """Start the server on an address.
 
-    Args:
-        host: The address.
-        port: A free port.
-        token: First part of the path of each request; others are refused.
-        title: Returns the title of the page, on each request.
-
     Raises:
         MissingDependency: viser is not installed.
         AddressError: Another process took the port in the meantime, or the server cannot be
@@ -277,10 +271,6 @@ def make_policy(own_host: str, nonce: str) -> str:
     Scripts and style sheets need the nonce. ``wasm-unsafe-eval`` is for the program that unpacks
     the page, which is WebAssembly; it does not allow ``eval`` of text. What the library does with
     ``eval``, Gaussian splats and Plotly, does not occur on the page.
-
-    Args:
-        own_host: Host header of the request; ignored if malformed.
-        nonce: Random text of this response.
     """
     safe = own_host if re.fullmatch(r"[\w.:\[\]-]+", own_host, re.ASCII) else ""
     return "; ".join(

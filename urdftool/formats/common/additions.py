@@ -16,13 +16,7 @@ DYNAMICS = ("armature", "damping", "friction")
 
 
 def announce_additions(checks: Sequence[Check], source: Robot, planned: Robot) -> None:
-    """Announce in each row what the export adds to the source.
-
-    Args:
-        checks: Rows of the comparison, in which nothing differs where the file is as planned.
-        source: The robot as its description defines it.
-        planned: The robot that the export writes.
-    """
+    """Announce in each row what the export adds to the source."""
     rows = {
         "limits": _list_added_efforts(source, planned),
         "joint physics": (

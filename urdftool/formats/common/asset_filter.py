@@ -33,12 +33,7 @@ _FBX_MESH = (b"PolygonVertexIndex", b"Vertices")
 
 
 def explain_uncopied(path: Path, *, is_mesh: bool) -> str:
-    """Explain why a file is not copied to an export; return "" if it is.
-
-    Args:
-        path: A file that the description may read.
-        is_mesh: Whether it is a mesh; else it is an image.
-    """
+    """Explain why a file, a mesh or an image, is not copied to an export; return "" if it is."""
     if is_mesh:
         return explain_invalid_mesh(path)
     return "" if is_image(path) else "it is not an image"

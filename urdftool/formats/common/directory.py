@@ -28,12 +28,7 @@ _HEAD = 4096
 
 
 def mark(xml: bytes, source: str) -> bytes:
-    """Return an XML file with the mark before its root element.
-
-    Args:
-        xml: The file; a declaration stays first.
-        source: Name of the source description.
-    """
+    """Return an XML file with the mark before its root element."""
     start = xml.find(b"?>") + 2 if xml.startswith(b"<?xml") else 0
     head, rest = xml[:start], xml[start:].lstrip(b"\n")
     comment = f"<!-- {_format_sentence(rest, source)} -->\n".encode()

@@ -45,13 +45,7 @@ def list_drives(
 ) -> list[Drive]:
     """List the drives of the joints that an export drives; a follower has none.
 
-    Args:
-        tree: The rigid bodies.
-        joints: The joints that move and have one degree of freedom.
-        actuators: The user's choice. ``auto`` adds position servos to what the description drives.
-        settings: Settings by joint name, from the user.
-        ground: Geometry near the ground, of a robot with a free base.
-        written: Receives losses.
+    ``auto`` adds position servos to what the description drives.
     """
     robot = tree.robot
     described = dict(_list_described(robot, written)) if actuators in AUTO else {}

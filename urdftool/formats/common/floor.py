@@ -17,14 +17,7 @@ NEAT = 1e-6
 def lift_to_floor(
     tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float], root: Pose
 ) -> Pose:
-    """Shift the root vertically so that the lowest point of the collision geometry is at z = 0.
-
-    Args:
-        tree: The kinematic tree.
-        boxes: Boxes of its shapes.
-        positions: Joint positions [rad, m].
-        root: Pose of the root in the description.
-    """
+    """Shift the root vertically so that the lowest point of the collision geometry is at z = 0."""
     ground = measure_ground(tree, boxes, positions, root)
     if ground is None:
         return root

@@ -39,13 +39,6 @@ def choose_holding_positions(
 
     A revolute joint that would move at home gets the nearest position that it holds, if the center
     of mass stays above the support polygon. Positions that the user or a file gives are kept.
-
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        home: Joint positions at home, with their source.
-        positions: The same with bent legs [rad, m].
-        written: Receives a note on each changed position.
     """
     found = dict(positions)
     masses = {link.name: link_inertia(link) for link in tree.robot.links if link.mass > 0}

@@ -69,13 +69,7 @@ class Leg:
 
 
 def find_legs(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]) -> list[Leg]:
-    """Find the legs of a robot that bend in a plane.
-
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        positions: Joint positions [rad, m], which decide what reaches the ground.
-    """
+    """Find the legs of a robot that bend in a plane, and reach the ground at joint positions."""
     poses = compute_level_poses(tree.robot, positions)
     return [
         leg

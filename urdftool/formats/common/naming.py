@@ -27,12 +27,7 @@ class UniqueNames:
     """Set of the names of a kind that are taken."""
 
     def __init__(self, taken: Iterable[str] = (), *, fold: bool = False) -> None:
-        """Initialize the set.
-
-        Args:
-            taken: Names that are taken already.
-            fold: Whether to ignore case, as some file systems do.
-        """
+        """Start with taken names; ``fold`` ignores case, as some file systems do."""
         self._fold = fold
         self._taken = {self._format_key(name) for name in taken}
         self._free: dict[str, int] = {}  # least number that may be free, by stem

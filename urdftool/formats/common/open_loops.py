@@ -18,13 +18,7 @@ loop; chosen, no source.
 
 
 def report_open_loops(robot: Robot, positions: Mapping[str, float], written: Written) -> None:
-    """Report the loops whose ends are apart at a configuration.
-
-    Args:
-        robot: The robot, with the loops of the export.
-        positions: Joint positions [rad or m] by name; 0 by default.
-        written: Receives a warning for each loop.
-    """
+    """Report the loops whose ends are apart at a configuration."""
     if not robot.closures:
         return
     poses = compute_link_poses(robot, positions)

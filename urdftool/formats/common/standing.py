@@ -135,11 +135,6 @@ def explain_free_base(
     the names of its rotors, its own or that of its file. Chains that begin with the same joints, as
     legs below a waist, count from where they part. A robot without collision geometry has a fixed
     base.
-
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        positions: Joint positions at home [rad, m].
     """
     if not any(link.collisions for link in tree.robot.links):
         return None  # it would fall through the floor
@@ -169,13 +164,7 @@ def explain_free_base(
 
 
 def describe_feet(tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]) -> str | None:
-    """Describe the feet on which a robot stands at a pose; None if it does not stand on two.
-
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        positions: Joint positions [rad, m].
-    """
+    """Describe the feet on which a robot stands at a pose; None if it does not stand on two."""
     ground = measure_ground(tree, boxes, positions)
     if ground is None:
         return None
@@ -260,11 +249,6 @@ def find_leg_chains(
     tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float]
 ) -> dict[str, list[str]]:
     """Find the rigid bodies that end chains near the ground, or are named like feet; one a chain.
-
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        positions: Joint positions [rad, m].
 
     Returns:
         The rigid bodies from the trunk (excluded) to each, by its name.

@@ -52,11 +52,7 @@ def compute_standing_positions(
 ) -> dict[str, float] | None:
     """Compute joint positions at which each foot is below its hip, all at the same height.
 
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        legs: The legs.
-        positions: Joint positions to start from [rad, m]; those of other joints are kept.
+    Other joints keep their positions.
 
     Returns:
         All positions [rad, m]; None if the limits do not allow it, or the feet do not become level.
@@ -111,12 +107,6 @@ def choose_standing_positions(
     Without the user's word, the legs are bent if zero is outside of the limits of hip or knee, if a
     foot is not on the ground, or if the root is, and if no other source gives their positions.
 
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        home: Joint positions at home.
-        written: Receives a note on bent legs.
-
     Raises:
         ModelError: The user asks for it, and the robot has no legs that can be bent.
     """
@@ -166,14 +156,7 @@ def compute_standing_margin(
 def report_support(
     tree: RigidTree, boxes: ShapeBoxes, positions: Mapping[str, float], written: Written
 ) -> None:
-    """Report a free robot whose center of mass is outside of its support polygon at home, or near.
-
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        positions: Joint positions at home [rad, m].
-        written: Receives a note, and advice.
-    """
+    """Report a free robot whose center of mass is outside its support polygon at home, or near."""
     poses = compute_level_poses(tree.robot, positions)
     center, ground = compute_center(tree.robot, poses), measure_ground(tree, boxes, positions)
     if center is None or ground is None:

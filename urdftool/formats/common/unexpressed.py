@@ -61,13 +61,7 @@ def report_unexpressed(robot: Robot, written: Written, *, expressed: Container[s
 def report_other_elements(
     robot: Robot, written: Written, *, expressed: Container[str] = ()
 ) -> None:
-    """Report what else a URDF has next to its links and joints, once for each tag.
-
-    Args:
-        robot: The source.
-        written: The export, which receives the losses.
-        expressed: Tags that the writer expresses, or reports itself.
-    """
+    """Report what else a URDF has next to its links and joints, once for each tag."""
     found: dict[str, list[Element]] = {}
     for element in () if robot.xml is None else robot.xml.children:
         if element.tag not in _OF_URDF and element.tag not in expressed:
@@ -98,14 +92,7 @@ def report_unwritten_settings(
     has_counterpart: Callable[[Setting], object],
     is_reported: Callable[[Value], bool] = lambda value: False,
 ) -> None:
-    """Report the settings that a format does not have, unless they are those of SDF without them.
-
-    Args:
-        robot: The source.
-        written: The export, which receives the losses.
-        has_counterpart: Tells whether the format has a setting.
-        is_reported: Tells whether the writer reports the element of a value.
-    """
+    """Report settings that a format does not have, unless they are those of SDF without them."""
     for kind, name, rows, settings in list_settings(robot):
         for row in rows:
             value = settings.get(row.name)

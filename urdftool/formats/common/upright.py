@@ -30,12 +30,6 @@ def turn_upright(
     """Return the robot; with a turned base if it stands on its legs with y up, and not with z up.
 
     A pose of the base in the description, or another format than URDF, defines what is up.
-
-    Args:
-        tree: The rigid bodies of a robot with a free base.
-        boxes: Boxes of its shapes.
-        positions: Joint positions at home [rad, m].
-        written: Receives a note on a turned base.
     """
     robot = tree.robot
     if robot.format != "urdf" or get_robot_origin(robot) is not None:

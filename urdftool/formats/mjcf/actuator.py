@@ -51,14 +51,6 @@ def plan_actuators(
 ) -> tuple[list[JointActuator], dict[str, Settings]]:
     """Choose the actuators of a robot; those of its source if that is a model with actuators.
 
-    Args:
-        structure: The kinematic tree.
-        options: Options of the export, with the kind of actuators and the time step.
-        loads: What each joint moves, with its armature, and holds at home.
-        settings: Settings by joint name, from the user.
-        ground: Geometry near the ground, of a free base.
-        written: Receives losses and the assumed gains.
-
     Returns:
         The actuators, and settings that follow from their gains, by the name of the joint.
     """
@@ -120,16 +112,7 @@ def _plan_actuator(
     timestep: float,
     assumed: dict[str, Gain],
 ) -> JointActuator:
-    """Choose gains and ranges of an actuator.
-
-    Args:
-        drive: Its joint and kind.
-        kind: ``hinge`` or ``slide``.
-        load: What the joint moves and holds.
-        settings: Settings from the user.
-        timestep: Physics time step [s].
-        assumed: Receives the gains that are assumed.
-    """
+    """Choose gains and ranges of an actuator."""
     joint = drive.joint
     made = JointActuator(None, joint.name, joint.name, drive.kind, force_range=settings.force_range)
     effort = drop_unlimited(get_effort(joint))

@@ -29,12 +29,6 @@ def build_body_tree(
 
     A root link named world becomes the worldbody. Free bodies are children of the worldbody, as
     MuJoCo requires.
-
-    Args:
-        structure: The kinematic tree.
-        home: Initial configuration.
-        model: Name of the model and of its default class.
-        written: Receives losses.
     """
     robot = structure.robot
     world = etree.Element("worldbody")

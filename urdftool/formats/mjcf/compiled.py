@@ -146,11 +146,6 @@ class Compiled:
     ) -> None:
         """Compile a file.
 
-        Args:
-            path: The file.
-            root: Name of the root link.
-            renamed: New names by kind and old name.
-
         Raises:
             MissingDependency: MuJoCo is not installed.
             OutputError: The file does not compile.

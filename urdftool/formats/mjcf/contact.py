@@ -37,12 +37,7 @@ def plan_exclusions(
 def build_contact_section(
     structure: Structure, proofs: Mapping[frozenset[str], str]
 ) -> etree._Element | None:
-    """Build ``<contact>`` with the exclusions of a robot; None if it has none.
-
-    Args:
-        structure: The kinematic tree.
-        proofs: Texts for comments, by the names of both links.
-    """
+    """Build ``<contact>`` with the exclusions of a robot; None if it has none."""
     if not structure.robot.exclusions:
         return None
     section = etree.Element("contact")

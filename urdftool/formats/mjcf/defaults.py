@@ -28,13 +28,7 @@ COLLISION = {"group": "3"}
 def build_default_section(
     model: str, world: etree._Element, actuators: etree._Element | None = None
 ) -> etree._Element:
-    """Build ``<default>`` with the robot's class; remove the shared attributes from the elements.
-
-    Args:
-        model: Name of the model and of the class.
-        world: ``<worldbody>``, whose joints and geoms are modified.
-        actuators: ``<actuator>``, whose elements are modified.
-    """
+    """Build ``<default>`` with the robot's class; remove shared attributes from the elements."""
     section = etree.Element("default")
     robot = etree.SubElement(section, "default", {"class": model})
     joint = etree.Element("joint")
@@ -108,14 +102,7 @@ Signature = tuple[tuple[str, str], ...]
 def add_joint_classes(
     robot: etree._Element, world: etree._Element, actuators: etree._Element | None, model: str
 ) -> None:
-    """Create a class for joints that share limits, damping and the gains of their actuator.
-
-    Args:
-        robot: ``<default>`` of the robot's class, which receives the classes.
-        world: ``<worldbody>``, whose joints are modified.
-        actuators: ``<actuator>``, whose elements are modified; may be None.
-        model: Name of the robot's class.
-    """
+    """Create a class for joints that share limits, damping and the gains of their actuator."""
     driven: dict[str, list[etree._Element]] = {}
     for actuator in actuators if actuators is not None else ():
         driven.setdefault(actuator.get("joint", ""), []).append(actuator)

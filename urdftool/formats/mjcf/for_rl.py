@@ -56,13 +56,7 @@ def replace_motors(
 def add_rotors(
     structure: Structure, settings: Mapping[str, JointSettings], written: Written
 ) -> Robot:
-    """Return the robot with armature and friction loss of hinges, by their effort limits.
-
-    Args:
-        structure: The kinematic tree.
-        settings: Settings by joint name, from the user, which are kept.
-        written: Receives a note.
-    """
+    """Return the robot with armature and friction loss of hinges, by their effort limits."""
     changed: list[str] = []
     joints = []
     for joint in structure.robot.joints:

@@ -41,15 +41,7 @@ def fuse_links(
     masses: Mapping[str, LinkInertia],
     written: Written,
 ) -> None:
-    """Merge each link without a joint of its own into its parent, and keep its frame as a site.
-
-    Args:
-        structure: The kinematic tree.
-        bodies: Body of each link, modified in place.
-        sections: The model, whose exclusions are modified.
-        masses: Mass properties of the links.
-        written: Receives a note with the number of merged links.
-    """
+    """Merge each link without a joint of its own into its parent, and keep its frame as a site."""
     kept = _get_kept(sections) | _list_followed(structure.robot, bodies)
     exclusions = _get_exclusions(sections.get("contact"))
     sites = UniqueNames(tuple(site.get("name", "") for site in sections["worldbody"].iter("site")))

@@ -36,11 +36,6 @@ def place_home(structure: Structure, boxes: ShapeBoxes, positions: dict[str, flo
     A fixed root, and that of an MJCF, keeps its pose. A floating joint below a world root
     counts as a floating base: the bodies that such joints carry are lifted together if they would
     reach below the floor.
-
-    Args:
-        structure: The kinematic tree.
-        boxes: Boxes of its shapes.
-        positions: Joint positions at home [rad, m].
     """
     root = make_pose(get_robot_origin(structure.robot))
     pose, start = root, root

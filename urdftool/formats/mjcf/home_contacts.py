@@ -71,15 +71,6 @@ def exclude_overlapping(
     """Find overlaps at home, report them, and exclude the pairs if the user chose so.
 
     Do nothing if MuJoCo is not installed.
-
-    Args:
-        structure: The kinematic tree.
-        positions: Joint positions at home [rad or m].
-        sections: The model; ``contact`` receives the pairs.
-        bodies: Body of each link.
-        assets: The meshes.
-        options: Options of the export.
-        written: Holds the mesh files, and receives the warning.
     """
     if options.exclude != "touching" and options.overlap is None:
         return

@@ -30,13 +30,7 @@ UNIT: Vector = (1.0, 0.0, 0.0)
 def build_joint_elements(
     structure: Structure, joint: Joint, written: Written
 ) -> list[etree._Element]:
-    """Build the elements of a movable joint, in the order in which MuJoCo applies them.
-
-    Args:
-        structure: The kinematic tree.
-        joint: A joint that is not welded.
-        written: Receives losses.
-    """
+    """Build the elements of a movable joint, in the order in which MuJoCo applies them."""
     kind = structure.get_kind(joint)
     if kind == "free":
         return [etree.Element("freejoint", name=joint.name)]

@@ -166,13 +166,7 @@ def build_loop_equalities(structure: Structure) -> Iterator[etree._Element]:
 
 
 def _is_planar(structure: Structure, closure: Closure, axis: Vector) -> bool:
-    """Tell whether the other joints of the loop keep its axis already: all move in one plane.
-
-    Args:
-        structure: The kinematic tree.
-        closure: The connection.
-        axis: Its axis in the frame of its child.
-    """
+    """Tell whether the other joints of the loop keep its axis already: all move in one plane."""
     axis = rotate(_get_pose(structure, closure.child).rotation, axis)
     paths = [_to_root(structure, link) for link in (closure.child, closure.parent)]
     for link in set(paths[0]) ^ set(paths[1]):

@@ -40,13 +40,7 @@ from .structure import WORLD, Structure
 
 
 def build_model_text(plan: Plan, assets: Assets, written: Written) -> bytes:
-    """Build the model as XML.
-
-    Args:
-        plan: The robot with every choice of the export.
-        assets: The meshes.
-        written: Receives textures, new names and losses.
-    """
+    """Build the model as XML."""
     structure, options, robot = plan.structure, plan.options, plan.robot
     _rename_world(structure, written)
     materials = Materials(robot, written, options.mesh_dir)

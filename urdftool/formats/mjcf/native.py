@@ -37,14 +37,7 @@ _TAGS = {
 def add_native(
     structure: Structure, options: Options, sections: Sections, written: Written
 ) -> None:
-    """Add the copied elements of a robot to the sections of an export.
-
-    Args:
-        structure: The kinematic tree.
-        options: Options of the export.
-        sections: Sections by tag, which are modified.
-        written: Receives what is not copied.
-    """
+    """Add the copied elements of a robot to the sections of an export."""
     robot = structure.robot
     if not list_native(robot):
         return

@@ -85,12 +85,6 @@ class Plan:
 def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Plan:
     """Make every choice of an export.
 
-    Args:
-        robot: The source, a tree.
-        name: Name of the model.
-        options: Options of the export.
-        written: Receives losses.
-
     Raises:
         SourceError: The SRDF cannot be read.
         ConfigError: The SRDF has no such group state, or the actuator file is invalid.

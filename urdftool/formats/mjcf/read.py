@@ -59,12 +59,7 @@ def read(
 ) -> Reading:
     """Read a robot.
 
-    Args:
-        path: An MJCF file, or ``-`` for standard input.
-        file: The file, if it has been read.
-        packages: Finder of mesh files; None creates one.
-        workspace: Access to files; None creates a new one.
-        limits: Limits of MuJoCo; for trusted input only that of time.
+    ``limits`` are those of MuJoCo; of trusted input only the time is limited.
 
     Raises:
         MissingDependency: MuJoCo is not installed.

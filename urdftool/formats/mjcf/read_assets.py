@@ -49,12 +49,7 @@ class AssetNames:
     """Names under which MuJoCo gets the files of one model."""
 
     def __init__(self, folder: str, assets: dict[str, Asset]) -> None:
-        """Store where the files are.
-
-        Args:
-            folder: Folder of the model, relative to that of the main file.
-            assets: Receives each file by its new name.
-        """
+        """Store where the files are."""
         self._folder = folder
         self._assets = assets
         self._settings = {"meshdir": "", "texturedir": ""}

@@ -8,11 +8,7 @@ _MAIN = ""
 
 
 class Defaults:
-    """Attributes by class and tag.
-
-    Attributes:
-        root: Root element of the model.
-    """
+    """Attributes by class and tag."""
 
     def __init__(self, root: Element) -> None:
         """Read the classes of a model."""

@@ -18,10 +18,6 @@ _FOLDERS = ("assetdir", "meshdir", "texturedir")
 def check_files(expanded: Expanded, access: FileAccess) -> None:
     """Check every file that MuJoCo may open for a model, with any of its compiler settings.
 
-    Args:
-        expanded: The model; MuJoCo gets its text, in which each element is that of the source.
-        access: Policy of the description.
-
     Raises:
         AccessError: The model may not read a file.
     """

@@ -34,12 +34,7 @@ _OF_EXPORT = "robot_name"
 
 @dataclass
 class _Text:
-    """The text for MuJoCo, parsed.
-
-    Attributes:
-        roots: Root of the model, and of each that it attaches.
-        lines: Element by its line.
-    """
+    """The text for MuJoCo, parsed."""
 
     roots: list[Element]
     lines: dict[int, Element]

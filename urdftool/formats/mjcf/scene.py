@@ -27,11 +27,6 @@ def create_scene_file(plan: Plan, text: bytes, written: Written) -> bytes:
 
     The floor is at z = 0. If a fixed robot reaches below it, at home or with every joint at zero,
     the floor is at its lowest point, which is reported.
-
-    Args:
-        plan: The robot with every choice of the export.
-        text: The model as XML, whose names the scene avoids.
-        written: The export; receives a floor that is not at zero.
     """
     structure, home, boxes = plan.structure, plan.home, plan.boxes
     ground = measure_ground(structure, boxes, home.positions, home.pose)

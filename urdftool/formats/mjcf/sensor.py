@@ -149,14 +149,7 @@ class _Planner:
 def plan_sensors(
     structure: Structure, frames: list[Frame], written: Written, *, base: bool
 ) -> SensorPlan:
-    """Choose MuJoCo's sensors for those of a robot.
-
-    Args:
-        structure: The kinematic tree.
-        frames: Other sites of the model.
-        written: Receives losses.
-        base: Whether a floating base gets the sensors of ``BASE_KINDS`` that it lacks.
-    """
+    """Choose MuJoCo's sensors for those of a robot."""
     robot = structure.robot
     planner = _Planner(robot, frames, written)
     for sensor in robot.mounted_sensors:

@@ -26,12 +26,7 @@ _PLACED = ("inertial", "geom", "site", "camera", "light", "body")
 
 
 def join_bodies(structure: Structure, bodies: Bodies) -> None:
-    """Place the bodies of an MJCF at the start of their joints, and join those of one source body.
-
-    Args:
-        structure: The kinematic tree.
-        bodies: Body of each link, in the frame of the link; modified.
-    """
+    """Place bodies of an MJCF at the start of their joints, and join those of one source body."""
     robot = structure.robot
     if robot.format != "mjcf":
         return
@@ -70,13 +65,7 @@ def _join(outer: etree._Element, inner: etree._Element) -> None:
 
 
 def restore_frames(robot: Robot, bodies: Bodies, sections: Mapping[str, etree._Element]) -> None:
-    """Move the frames of bodies to where the MJCF of a robot has them.
-
-    Args:
-        robot: The robot.
-        bodies: Body of each link, in the frame of the link; modified.
-        sections: The model, whose equalities are modified.
-    """
+    """Move the frames of bodies to where the MJCF of a robot has them."""
     anchors = list_anchors(robot)
     for link, anchor in anchors.items():
         _move_frame(bodies[link], anchor)

@@ -148,10 +148,5 @@ def get_locked_at(joint: Joint) -> float | None:
 
 
 def create_structure(robot: Robot, *, keep_locked: bool = False) -> Structure:
-    """Create the structure of a robot with one root, with a fixed base.
-
-    Args:
-        robot: The robot.
-        keep_locked: Whether joints with equal limits stay joints.
-    """
+    """Create the structure of a robot with one root, with a fixed base."""
     return Structure(robot, robot.tree.roots[0], False, "", keep_locked)

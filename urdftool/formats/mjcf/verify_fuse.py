@@ -38,14 +38,7 @@ def fuse_check(
     fused: Compiled,
     configurations: Sequence[Mapping[str, float]],
 ) -> Check:
-    """Compare a model with merged links with one in which each link is a body.
-
-    Args:
-        links: Names of the links.
-        plain: The model with a body for each link.
-        fused: The model whose merged links are sites.
-        configurations: Joint positions by name [rad or m].
-    """
+    """Compare a model with merged links with one in which each link is a body."""
     check = Check(
         "fused",
         "merged and whole model: frames, masses, shapes, contacts, joints, actuators, sensors, key",
@@ -94,14 +87,7 @@ def fuse_check(
 def compare_fields(
     plain: Compiled, fused: Compiled, check: Check, families: tuple[str, ...] = FAMILIES
 ) -> None:
-    """Compare joints, actuators, sensors, keys, materials and options field by field.
-
-    Args:
-        plain: A model.
-        fused: Another model of the same robot.
-        check: Row that records the differences.
-        families: Prefixes of the compared fields of MuJoCo's model.
-    """
+    """Compare joints, actuators, sensors, keys, materials and options field by field."""
     for name in dir(plain.model):
         if not name.startswith(families) or name.endswith(COUNTED):
             continue

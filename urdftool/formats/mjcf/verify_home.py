@@ -27,14 +27,7 @@ _OF_JOINTS = (0, 1)
 def check_home(
     robot: Robot, compiled: Compiled, *, on_floor: bool = True, is_copied: bool = False
 ) -> Check:
-    """Compare the initial pose, and the key ``home`` with limits, controls and the floor.
-
-    Args:
-        robot: The robot that the file must hold, with its base.
-        compiled: The model.
-        on_floor: Whether the export places a free root on the floor.
-        is_copied: Whether the key ``home`` is that of the source.
-    """
+    """Compare the initial pose, and the key ``home`` with limits, controls and the floor."""
     check = Check("home", "pose of the root, floor, limits, controls", EXACT)
     model = compiled.model
     key = compiled.get_id("KEY", "home")

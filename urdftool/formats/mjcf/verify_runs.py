@@ -200,11 +200,6 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
 
     Without the key, the start is zero within the limits. A free base gets a floor under the lowest
     collision geometry if the file has no plane.
-
-    Args:
-        path: The MJCF file.
-        timestep: Physics time step [s].
-        seconds: Simulated time [s].
     """
     mujoco = import_mujoco_module()
     warned: list[str] = []

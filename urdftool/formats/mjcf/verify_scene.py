@@ -32,11 +32,6 @@ ROBOT = ("jnt_", "dof_", "actuator_", "sensor_", "key_", "eq_sol", "eq_active", 
 def check_scene(robot: Robot, compiled: Compiled, path: Path) -> Check:
     """Compare a scene with the model it includes.
 
-    Args:
-        robot: The robot that the file must hold, with its base.
-        compiled: The model.
-        path: The file of the scene.
-
     Raises:
         OutputError: MuJoCo does not compile it.
     """

@@ -90,14 +90,7 @@ def _is_known(parent: str, element: Element) -> bool:
 def remove_invalid(
     made: Node, t: Translation, element: Element, about: Link | Joint | None
 ) -> None:
-    """Remove children that are not SDF elements or have invalid values.
-
-    Args:
-        made: The copy of an element.
-        t: The export.
-        element: The source element.
-        about: Link or joint that its block refers to.
-    """
+    """Remove children that are not SDF elements or have invalid values."""
     if element.tag == "plugin":
         return
     for child, source in zip(list(made), element.children, strict=True):

@@ -189,12 +189,7 @@ def get_material_name(robot: str, picture: str) -> str:
 
 
 def create_script(robot: str, pictures: Mapping[Path, str]) -> bytes:
-    """Create the script with a white material for each texture; visuals set their own colors.
-
-    Args:
-        robot: Name of the model.
-        pictures: File names in the texture folder, by path.
-    """
+    """Create the script with a white material for each texture; visuals set their own colors."""
     parts = [
         f"material {get_material_name(robot, name)}\n"
         "{\n  technique\n  {\n    pass\n    {\n"

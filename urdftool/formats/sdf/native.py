@@ -72,14 +72,7 @@ def add_native(model: Node, t: Translation) -> None:
 
 
 def merge_native(node: Node, t: Translation, section: str, part: Part) -> None:
-    """Merge what an SDF has in a shape or joint, and the robot does not hold, into a node.
-
-    Args:
-        node: The exported shape or joint.
-        t: The export.
-        section: ``link`` or ``joint`` with the name of the part's owner in the robot.
-        part: The shape or joint.
-    """
+    """Merge what an SDF has in a shape or joint, and the robot does not hold, into a node."""
     for element in t.rest.get((section, part.place), ()):
         if element.tag in _IN_PARTS:
             made = append_native(node, element)

@@ -49,12 +49,7 @@ def read(
 ) -> Reading:
     """Read a robot: the model of the file, or the one with most joints.
 
-    Args:
-        path: An SDF file, or ``-`` for standard input.
-        file: The file, if it has been read.
-        packages: Finder of mesh files and models; None creates one.
-        workspace: Access to files; None creates a new one.
-        name: Name of the model; empty for the one with most joints.
+    ``name`` is that of a model; empty for the one with most joints.
 
     Raises:
         SourceError: A file cannot be read, or includes itself.

@@ -180,15 +180,7 @@ def _read_settings(context: Context, found: Found, axis: str) -> Settings:
 
 
 def _set_axis(context: Context, found: Found, joint: Joint, tag: str, turn: Pose) -> None:
-    """Set axis, limits, dynamics and coupling of a joint.
-
-    Args:
-        context: The context.
-        found: The joint of SDF.
-        joint: The joint to complete.
-        tag: ``axis`` or ``axis2``.
-        turn: Rotation of the top model's frame into that of the child link.
-    """
+    """Set axis, limits, dynamics and coupling of a joint."""
     element = found.element.find_child(tag)
     holder = found.element if element is None else element
     xyz = (0.0, 0.0, 1.0) if element is None else read_vector(element, "xyz", (0.0, 0.0, 1.0))

@@ -28,11 +28,6 @@ def report_start(robot: Robot, options: Options, written: Written) -> float:
 
     Gazebo starts joints at zero, or at the limit nearest to it. The height is that of exports to
     MJCF and USD; a base that is fixed, or that the description places, has none.
-
-    Args:
-        robot: The robot with its base as exported.
-        options: Options of the export.
-        written: Receives a note on the height, and a warning on links that overlap.
     """
     if options.overlaps is None:
         return 0.0

@@ -17,13 +17,7 @@ ALWAYS = (
 
 
 def add_world(parent: Node, t: Translation, robot: Node) -> None:
-    """Add a world around the robot, with the gravity and other settings of the source's.
-
-    Args:
-        parent: The root element.
-        t: The export.
-        robot: The model, which is moved into the world.
-    """
+    """Add a world around the robot, with the gravity and other settings of the source's."""
     node = add(parent, "world", name="default")
     write_settings(node, t.robot.world, [row._replace(also="") for row in OF_SDF])
     if t.options.classic:

@@ -9,14 +9,7 @@ from ..written import Written
 
 
 class Names:
-    """Names in the export by the names in the source.
-
-    Attributes:
-        links: Names of links.
-        joints: Names of joints.
-        taken_links: Names of links that are taken.
-        taken_joints: Names of joints that are taken.
-    """
+    """Names in the export by the names in the source."""
 
     def __init__(self, robot: Robot, written: Written) -> None:
         """Choose names: ``::`` of nested models becomes ``_``; each is unique."""

@@ -17,16 +17,7 @@ from .options import Options
 
 @dataclass
 class Translation:
-    """State of an export.
-
-    Attributes:
-        robot: The source.
-        options: Options.
-        written: The export.
-        names: Names in the export.
-        meshes: Mesh and texture files.
-        root: The element ``<robot>``.
-    """
+    """State of an export."""
 
     robot: Robot
     options: Options

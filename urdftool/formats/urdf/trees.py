@@ -19,11 +19,6 @@ def take_tree(robot: Robot, root: str, written: Written) -> Robot:
     A URDF describes one robot, whose free base has no joint. Of several trees at the world, the one
     with most joints that move is the robot. A source in URDF stays as it is.
 
-    Args:
-        robot: The model.
-        root: Root link of the tree that the user chose; empty for the largest.
-        written: Receives the trees that are left out, and how to export them.
-
     Raises:
         ModelError: The model has no such tree.
     """

@@ -23,15 +23,7 @@ def check_srdf(
     names: Mapping[tuple[str, str], str],
     declared: DeclaredLosses,
 ) -> Check:
-    """Compare excluded contacts and named positions.
-
-    Args:
-        robot: The source, in a format other than URDF.
-        result: The export, read back.
-        path: The URDF file of the export.
-        names: New names by kind and old name.
-        declared: Losses that the export reported.
-    """
+    """Compare excluded contacts and named positions."""
     check = Check("srdf", "excluded contacts, named joint positions [rad, m]", _TOLERANCE)
     check.is_empty = not (robot.exclusions or robot.configurations)
     if check.is_empty:

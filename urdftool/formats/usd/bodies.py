@@ -108,14 +108,7 @@ def has_mass(link: Link) -> bool:
 
 
 def make_bodies(robot: Robot, base: Base, virtual_joint: str | None, written: Written) -> Bodies:
-    """Divide the links of a robot into bodies and frames.
-
-    Args:
-        robot: A robot whose tree has one root.
-        base: Whether the root is fixed.
-        virtual_joint: Type of the SRDF's virtual joint, if there is one.
-        written: Receives what is not as in the description.
-    """
+    """Divide the links of a robot into bodies and frames."""
     root = robot.tree.roots[0]
     free = _is_free(robot, root, base, virtual_joint, written)
     if free:

@@ -54,14 +54,7 @@ def is_self_colliding(robot: Robot, options: Options) -> bool:
 def list_overlaps(
     robot: Robot, options: Options, positions: Mapping[str, float], written: Written
 ) -> list[ContactExclusion]:
-    """List the pairs of links that overlap at home, which simulators would push apart.
-
-    Args:
-        robot: The robot.
-        options: Options of the export.
-        positions: Joint positions at home [rad or m].
-        written: Receives a warning that names the pairs.
-    """
+    """List the pairs of links that overlap at home, which simulators would push apart."""
     if options.overlaps is None or not is_self_colliding(robot, options):
         return []
     finding = options.overlaps(robot, positions)

@@ -53,14 +53,7 @@ def make_single_file(
 def make_layered_files(
     builder: StageBuilder, name: str, source: str, images: Mapping[str, Content]
 ) -> dict[str, Content]:
-    """Return the files of a stage whose robot is a payload with a layer for each kind of data.
-
-    Args:
-        builder: The stage.
-        name: Name of the stage; its suffix is the form of that layer.
-        source: Name of the source description.
-        images: Images by path relative to the payload.
-    """
+    """Return the files of a stage whose robot is a payload with a layer for each kind of data."""
     own = {kind: layer for kind, layer in builder.layers.items() if layer is not builder.base}
     base = Sdf.Layer.CreateAnonymous("base.usda")  # no stage composes it
     base.TransferContent(builder.base)

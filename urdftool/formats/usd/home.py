@@ -64,13 +64,6 @@ def plan_home(
 ) -> Home:
     """Choose the home of a robot.
 
-    Args:
-        bodies: Bodies of the robot.
-        inertias: Mass properties of the bodies by link.
-        options: Options of the export.
-        srdf: The SRDF, if there is one.
-        written: Receives positions beyond limits, and a note on bent legs.
-
     Raises:
         ConfigError: The SRDF has no such state.
         ModelError: A joint of the pose does not exist or mimics another.
@@ -99,15 +92,7 @@ def plan_servos(
     settings: Mapping[str, JointSettings],
     written: Written,
 ) -> list[JointActuator]:
-    """Choose the servos of a robot; those of its source if that has actuators.
-
-    Args:
-        bodies: Bodies of the robot.
-        home: Its home.
-        options: Options of the export, with the kind of actuators and the time step.
-        settings: Settings by joint name, from the user.
-        written: Receives notes on servos and gains.
-    """
+    """Choose the servos of a robot; those of its source if that has actuators."""
     robot = bodies.robot
     if options.actuators in AUTO and (robot.joint_actuators or robot.format in ("mjcf", "usd")):
         return list(robot.joint_actuators)

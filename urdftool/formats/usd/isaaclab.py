@@ -43,14 +43,6 @@ def write_config(
 ) -> list[str]:
     """Write the configuration of an exported robot.
 
-    Args:
-        robot: The robot.
-        options: Options of the export.
-        stage: The stage that was written.
-        file: The Python file.
-        version: Major version of Isaac Lab: 2 or 3.
-        overwrite: Whether to replace a file that urdftool did not write.
-
     Returns:
         Sentences on what was assumed.
 

@@ -65,14 +65,7 @@ def choose_joint_values(
     servos: Sequence[JointActuator],
     written: Written,
 ) -> dict[str, JointValues]:
-    """Choose the values of each joint with one degree of freedom, by name.
-
-    Args:
-        bodies: Bodies of the robot.
-        settings: Settings by joint name, from the user.
-        servos: The servos of the joints.
-        written: Receives a note on missing gains, and changes of values of the description.
-    """
+    """Choose the values of each joint with one degree of freedom, by name."""
     joints = list_single_joints(bodies)
     found = {}
     for joint in joints:

@@ -194,14 +194,7 @@ class JointWriter:
                 )
 
     def write_mimic(self, joint: Joint, leader: str, factor: float, offset: float) -> None:
-        """Write that a joint follows another: position = factor · leader + offset.
-
-        Args:
-            joint: The follower.
-            leader: Name of a joint that follows none.
-            factor: Factor.
-            offset: Offset [rad or m].
-        """
+        """Write that a joint follows: position = factor · leader + offset [rad or m]."""
         if is_angular(joint) != is_angular(self.bodies.robot.joint[leader]):
             self.written.report_loss(
                 "mimic-types",

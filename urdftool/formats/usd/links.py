@@ -16,13 +16,7 @@ from .stage import PHYSICS, StageBuilder, apply, compute_quaternion, set_pose, s
 
 @dataclass(frozen=True)
 class LinkWriter:
-    """Writes the links of a robot.
-
-    Attributes:
-        builder: The stage.
-        bodies: Bodies of the robot.
-        names: Prim names.
-    """
+    """Writes the links of a robot."""
 
     builder: StageBuilder
     bodies: Bodies

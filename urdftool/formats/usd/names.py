@@ -22,13 +22,7 @@ def make_identifier(text: str, fallback: str = "unnamed") -> str:
 
 @dataclass(frozen=True)
 class Names:
-    """Prim names of a robot.
-
-    Attributes:
-        robot: Name of the default prim.
-        link: Prim name by link.
-        joint: Prim name by joint; a joint may have the name of a link.
-    """
+    """Prim names of a robot."""
 
     robot: str
     link: dict[str, str] = field(default_factory=dict)

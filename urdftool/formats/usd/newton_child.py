@@ -10,11 +10,7 @@ from ...model.settings import RESISTANCE
 
 
 def read_stage(path: str, configurations: Sequence[dict[str, float]]) -> dict[str, Any]:
-    """Import a stage on the processor.
-
-    Args:
-        path: The stage.
-        configurations: Joint positions [rad or m] by path of the joint's prim.
+    """Import a stage, at joint positions [rad or m] by the paths of their prims.
 
     Returns:
         Bodies and joints by path of their prims, shapes, and the poses of the bodies in each

@@ -22,14 +22,7 @@ those of ``PhysxJointAPI``."""
 def write_physx_values(
     prim: Usd.Prim, drive: str, values: Mapping[str, float], *, old_names: bool
 ) -> None:
-    """Write values of Newton's schema in the schemas of PhysX.
-
-    Args:
-        prim: A joint.
-        drive: ``angular`` or ``linear``.
-        values: Values by names of Newton's schema.
-        old_names: Whether to write ``PhysxJointAPI`` too.
-    """
+    """Write values of Newton's schema in the schemas of PhysX."""
     apply(prim, f"PhysxJointAxisAPI:{drive}")
     for name, value in values.items():
         for attribute in _NAMES[name]:

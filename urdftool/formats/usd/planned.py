@@ -19,14 +19,7 @@ def make_planned(
     home: Mapping[str, float],
     pairs: Iterable[tuple[str, str]],
 ) -> Robot:
-    """Return the robot with the chosen base, home, values and drives of joints, contact pairs.
-
-    Args:
-        bodies: Bodies of the robot.
-        values: Values of the joints with one degree of freedom.
-        home: Joint positions at home [rad or m].
-        pairs: Links that never collide.
-    """
+    """Return the robot with the chosen base, home, values and drives of joints, contact pairs."""
     robot = bodies.robot
     origin = None if robot.base is None else robot.base.origin
     return replace(

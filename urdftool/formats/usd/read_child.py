@@ -25,15 +25,7 @@ from .read_unread import report_unread
 def read_stage(
     opened: Opened, shown: str, path: str, name: str, mesh_folder: Path
 ) -> tuple[Reading | UrdftoolError, Dependencies]:
-    """Read a robot, and return it or why it cannot be read, and the files that were asked for.
-
-    Args:
-        opened: The file, finder of packages, and access to files.
-        shown: The file as the user names it.
-        path: The file, or a copy of standard input.
-        name: Name or path of an articulation; empty for the one with most bodies.
-        mesh_folder: Folder for the meshes of the stage.
-    """
+    """Read a robot, and return it or why it cannot be read, and the files that were asked for."""
     view = opened.workspace.with_record()
     assert view.dependencies is not None
     try:

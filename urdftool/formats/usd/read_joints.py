@@ -139,14 +139,7 @@ def find_units(context: Context, kind: JointKind) -> Units:
 
 
 def add_motion(context: Context, prim: Usd.Prim, joint: Joint, freedom: str) -> None:
-    """Add limits, dynamics, mimic and drive of a joint with one position.
-
-    Args:
-        context: State of reading.
-        prim: Prim of the joint.
-        joint: Receives the values.
-        freedom: Name of the only free axis of a joint without a fixed type; empty for others.
-    """
+    """Add limits, dynamics, mimic and drive of a joint with one position."""
     if joint.type not in ("revolute", "continuous", "prismatic"):
         return
     units = find_units(context, JointKind(joint.type, freedom=freedom))

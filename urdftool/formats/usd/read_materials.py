@@ -29,14 +29,7 @@ _OPACITIES = ("opacity", "opacity_constant")
 def read_material(
     context: Context, prim: Usd.Prim, folder: MeshFolder, *, has_coordinates: bool
 ) -> Material | None:
-    """Return the color or texture of a prim or of a subset of faces; None without one.
-
-    Args:
-        context: State of reading.
-        prim: A shape, or a ``GeomSubset``.
-        folder: Receives images that are in packages.
-        has_coordinates: Whether the shape has texture coordinates.
-    """
+    """Return the color or texture of a prim or of a subset of faces; None without one."""
     bound, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
     surface = _find_surface(bound) if bound else None
     if surface is None:

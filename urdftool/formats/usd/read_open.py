@@ -47,12 +47,6 @@ def open_stage(
 ) -> tuple[Usd.Stage, Layers]:
     """Open a stage with its payloads, and record the warnings of OpenUSD.
 
-    Args:
-        path: The file, or a copy of standard input.
-        file: The file.
-        losses: Receives the warnings.
-        workspace: Access to files.
-
     Returns:
         The stage, and its layers.
 

@@ -21,9 +21,6 @@ class Layers:
 
     A prim is at the line of a text layer that defines it. Layers without lines, which are binary
     or in a package, have the path of the prim instead.
-
-    Attributes:
-        files: The files of the layers.
     """
 
     def __init__(

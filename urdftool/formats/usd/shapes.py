@@ -37,15 +37,7 @@ from .surfaces import SurfaceWriter
 
 @dataclass(frozen=True)
 class ShapeWriter:
-    """Writes the shapes of a robot.
-
-    Attributes:
-        links: Writer of links.
-        meshes: Mesh files.
-        materials: Writer of materials.
-        surfaces: Writer of friction.
-        written: Receives the losses.
-    """
+    """Writes the shapes of a robot."""
 
     links: LinkWriter
     meshes: Meshes

@@ -30,13 +30,7 @@ class StageBuilder:
     """
 
     def __init__(self, name: str, *, is_layered: bool, kinds: Iterable[str] = LAYERS) -> None:
-        """Create a stage with an empty robot.
-
-        Args:
-            name: Name of the default prim.
-            is_layered: Whether each kind of data has a layer of its own.
-            kinds: Kinds of data that have one.
-        """
+        """Create a stage with an empty robot."""
         self.base = Sdf.Layer.CreateAnonymous("base.usda")
         self.layers = dict.fromkeys(LAYERS, self.base)
         if is_layered:

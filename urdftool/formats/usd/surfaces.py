@@ -16,12 +16,7 @@ from .stage import PHYSICS
 
 @dataclass(frozen=True)
 class SurfaceWriter:
-    """Makes one physics material for each coefficient of friction.
-
-    Attributes:
-        links: Writer of links.
-        written: Receives the losses.
-    """
+    """Makes one physics material for each coefficient of friction."""
 
     links: LinkWriter
     written: Written

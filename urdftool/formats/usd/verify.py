@@ -45,14 +45,7 @@ _PLACES = ("frames", "axes", "collisions", "visuals", "colors", "mass matrix", "
 def verify_copy(
     robot: Robot, written: Written, *, timestep: float | None = None, newton: bool | None = None
 ) -> list[Check]:
-    """Write a copy of an export, read it, and compare it with its source.
-
-    Args:
-        robot: The source.
-        written: The export.
-        timestep: Physics time step [s] for which the gains of servos were chosen.
-        newton: Whether to import the copy with Newton; None if it is installed.
-    """
+    """Write a copy of an export, read it, and compare it with its source."""
     assert written.planned is not None
     source = add_world(read_again(robot))[0]
     expected = make_expected(source, written.planned)

@@ -17,13 +17,7 @@ TOLERANCE = 1e-6
 
 
 def compare_home(path: Path, robot: Robot, home: Mapping[str, float]) -> Check:
-    """Compare positions and targets of joints with the home, and both with the limits.
-
-    Args:
-        path: The stage.
-        robot: The source.
-        home: Joint positions at home [rad or m], by name.
-    """
+    """Compare positions and targets of joints with the home, and both with the limits."""
     check = Check("home", "positions and targets of servos at home, within limits [rad, m]", 1e-6)
     for name, prim in _list_joints(path):
         joint = robot.joint.get(name)

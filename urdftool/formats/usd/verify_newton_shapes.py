@@ -45,13 +45,7 @@ _LOST = (*SHAPES, "lossy-convex")
 def compare_colliders(
     source: Source, shapes: list[dict[str, Any]], links: Mapping[str, str]
 ) -> list[Check]:
-    """Compare number and extent of the colliders of each body, with those of its frames.
-
-    Args:
-        source: The robot that the stage must hold.
-        shapes: Shapes that Newton has.
-        links: Names of links by the paths of their prims.
-    """
+    """Compare number and extent of the colliders of each body, with those of its frames."""
     count = Check("Newton: colliders", "number of collision shapes of each body", 0.0)
     extent = Check(
         "Newton: shapes",

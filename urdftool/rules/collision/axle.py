@@ -38,17 +38,7 @@ class AxleDirection(NamedTuple):
 
 
 class Wheel(NamedTuple):
-    """A wheel with one cylinder to roll on.
-
-    Attributes:
-        joint: Joint of the wheel.
-        link: Link of the cylinder.
-        shape: The cylinder.
-        kind: The visual or collision of the cylinder.
-        axis: Direction of the joint axis.
-        cylinder: Direction of the cylinder.
-        others: Directions of other sources.
-    """
+    """A wheel with one cylinder to roll on."""
 
     joint: Joint
     link: Link

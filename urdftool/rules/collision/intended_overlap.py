@@ -92,13 +92,7 @@ def _is_enclosing(known: ConvexBodies, outer: Link, inner: Link) -> bool:
 def remove_intended(
     robot: Robot, description: Description, pairs: Sequence[tuple[Link, Link, float]]
 ) -> list[tuple[Link, Link, float]]:
-    """Remove the pairs that are meant: disabled in the SRDF, of a telescope, or in an envelope.
-
-    Args:
-        robot: Robot.
-        description: Its description, next to which an SRDF may be.
-        pairs: Two links, and the depth [m].
-    """
+    """Remove the pairs that are meant: disabled in the SRDF, of a telescope, or in an envelope."""
     if not pairs:
         return []
     disabled = find_disabled_pairs(robot, description)

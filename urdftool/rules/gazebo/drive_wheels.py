@@ -173,13 +173,7 @@ def get_wheel(robot: Robot, poses: dict[str, Pose], name: str) -> Wheel | None:
 def _find_controller_drives(
     robot: Robot, description: Description, poses: dict[str, Pose]
 ) -> Iterator[Drive]:
-    """Yield the controllers with known wheels, from the controller files of a robot.
-
-    Args:
-        robot: The robot.
-        description: Its description.
-        poses: Poses of its links in the frame of the root; empty if not computed yet.
-    """
+    """Yield the controllers with known wheels, from the controller files of a robot."""
     from ..control.controller_files import get_package
 
     for file in get_package(robot, description).controller_files:

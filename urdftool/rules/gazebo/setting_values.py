@@ -35,14 +35,7 @@ _REJECTS = frozenset((_REJECTED, _NO_VALUE))
 
 
 class _Written(NamedTuple):
-    """An element that sets something.
-
-    Attributes:
-        part: Its link or joint.
-        element: The element.
-        row: What it sets.
-        is_bullet: Whether it is in ``<contact>`` of a link, which PyBullet alone reads.
-    """
+    """An element that sets something."""
 
     part: Link | Joint
     element: Element

@@ -13,11 +13,6 @@ def compute_joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) ->
     The result is the inertia of everything below the joint, about its axis, in series with that
     of everything above it: ``a b / (a + b)``.
 
-    Args:
-        robot: The robot.
-        joint: A revolute, continuous or prismatic joint.
-        poses: The poses of the links in the frame of the root.
-
     Returns:
         The inertia [kg·m²]; for a prismatic joint the mass [kg]; 0 if nothing below the joint
         has one.

@@ -168,14 +168,7 @@ def _is_only_sliding(robot: Robot, link: Link) -> bool:
 
 
 def _is_frame(robot: Robot, link: Link, body: list[Link], tiny: float) -> bool:
-    """Tell whether a link is a frame: without geometry, or tiny and part of a heavier body.
-
-    Args:
-        robot: The robot.
-        link: One of its links.
-        body: The links of its rigid body.
-        tiny: The largest length of such a part [m].
-    """
+    """Tell whether a link is a frame: without geometry, or tiny and part of a heavier body."""
     if not link.visuals and not link.collisions:
         return True
     if not any(other.mass > link.mass for other in body):

@@ -183,10 +183,6 @@ def _select_effects(lost: list[MeshUse], uses: list[MeshUse]) -> list[str]:
     """Select the effects of a missing file.
 
     RViz and gz do not open the file of a shape that urdfdom drops.
-
-    Args:
-        lost: The uses whose file MuJoCo opens and does not find.
-        uses: The uses of the missing file.
     """
     shown = () if all(map(is_dropped, uses)) else ("rviz", "gz")
     opened = any(use is other for use in uses for other in lost)

@@ -107,12 +107,7 @@ def _describe_turn(angle: float, tilt: float, looks_ahead: bool) -> str:
 
 
 def _is_upright_by_roll(rotation: Rotation, camera: Pose | None) -> bool:
-    """Tell whether the image of a rolled optical frame is upright, and by the convention not.
-
-    Args:
-        rotation: Rotation of the optical frame, which looks along x of the camera's frame.
-        camera: Pose of the camera's frame in the frame of the root, whose z axis points up.
-    """
+    """Tell whether the image of a rolled optical frame is upright, and by the convention not."""
     if camera is None:
         return False
     up = camera.rotation[2]  # the root's z axis in the camera's frame

@@ -23,12 +23,6 @@ def find_dependency_chain(
 ) -> tuple[str, ...]:
     """Find the shortest chain of dependencies from one package to another.
 
-    Args:
-        start: The package that depends.
-        goal: The package that it may depend on.
-        packages: Finds packages; one that is not found depends on nothing.
-        conditional: Whether dependencies with a ``condition`` count too.
-
     Returns:
         The packages from ``start`` to ``goal``; empty if there is no chain.
     """

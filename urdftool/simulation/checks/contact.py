@@ -213,13 +213,7 @@ def _collect_geometry_key(geometry: Geometry | None) -> tuple[object, ...]:
 def _collect_visual_points(
     robot: Robot, name: str, read: Callable[[Robot, Visual], Array | None]
 ) -> Array:
-    """Collect points of a link's visuals in its frame [m], shape (n, 3).
-
-    Args:
-        robot: The robot.
-        name: Name of the link.
-        read: Returns the points of a box or mesh; other shapes are sampled.
-    """
+    """Collect points of a link's visuals in its frame [m], shape (n, 3)."""
     found = [np.zeros((0, 3))]
     for shape in robot.link[name].visuals:
         if isinstance(shape.geometry, (Cylinder, Sphere, Capsule)):

@@ -29,14 +29,7 @@ _WIDE = 1.0
 def find_mechanism(
     robot: Robot, start: StateSnapshot, links: tuple[str, str], between: Sequence[int]
 ) -> str:
-    """Describe the mechanism to which two links belong that overlap at the start; empty if none.
-
-    Args:
-        robot: The robot, read from a description.
-        start: State of the robot at the start.
-        links: Two links of different bodies.
-        between: Indices of the bodies whose joints connect the two links.
-    """
+    """Describe the mechanism to which two links belong that overlap at the start; empty if none."""
     bodies = start.bodies.bodies
     ends = start.get_body(links[0]), start.get_body(links[1])
     joints = [joint for number in between if (joint := bodies[number].joint) is not None]

@@ -26,14 +26,7 @@ from .thresholds import Thresholds
 def explain_misplaced_collision(
     robot: Robot, snapshot: StateSnapshot, link: str, other: int
 ) -> str | None:
-    """Explain why collision geometry that overlaps a neighbor's is misplaced; None if it is not.
-
-    Args:
-        robot: The robot, read from a description.
-        snapshot: State of the robot.
-        link: Name of the link.
-        other: Index of the body on the other side of a joint of the link's body.
-    """
+    """Explain why collision geometry that overlaps a neighbor's is misplaced; None if it is not."""
     part, bounds = robot.link[link], snapshot.thresholds
     box, shown_box = (
         compute_bounding_box(robot, part.collisions),

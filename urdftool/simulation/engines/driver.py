@@ -40,14 +40,6 @@ def run(
 ) -> Recording:
     """Spawn a robot in an engine, and let it settle.
 
-    Args:
-        engine: Name of the engine.
-        bodies: Rigid bodies of the robot.
-        settings: Settings of the simulation.
-        folder: Folder with the files of ``Engine.write_model``.
-        thresholds: Thresholds of a robot at rest.
-        emit: Receives the poses and contacts of the start before the first step.
-
     Raises:
         MissingDependency: The engine is not installed.
         ModelError: The engine cannot load the robot.
@@ -146,13 +138,7 @@ class Stillness:
     """
 
     def __init__(self, bodies: RigidBodyModel, interval: float, thresholds: Thresholds) -> None:
-        """Initialize without samples.
-
-        Args:
-            bodies: Rigid bodies of the robot.
-            interval: Time between samples [s].
-            thresholds: Thresholds of a robot at rest.
-        """
+        """Initialize without samples."""
         joint_bounds = [
             thresholds.settle_slide if joint.kind == "prismatic" else thresholds.settle_turn
             for joint in bodies.joints
@@ -212,14 +198,7 @@ class Stillness:
 
 
 def sweep(engine: str, bodies: RigidBodyModel, settings: Settings, folder: Path) -> list[Swept]:
-    """Move each joint of a robot through its limits in an engine.
-
-    Args:
-        engine: Name of the engine.
-        bodies: Rigid bodies of the robot.
-        settings: Settings with the positions of the other joints.
-        folder: Folder with the files of ``Engine.write_model``.
-    """
+    """Move each joint of a robot through its limits in an engine."""
     world = load_engine(engine).open_world(bodies, settings, folder)
     world.clear_ground()
     return sweep_world(world, bodies)

@@ -15,13 +15,7 @@ from .mass_distribution import has_shapes
 
 
 def check_read_back(robot: Robot, run: Run, known: set[str]) -> Iterator[Fault]:
-    """Report values that the engine loaded differently from the file.
-
-    Args:
-        robot: The robot.
-        run: The run.
-        known: Names of bodies whose mass or inertia is already reported.
-    """
+    """Report values that the engine loaded differently from the file."""
     for difference in run.recording.read_back:
         if difference.name in known:
             continue

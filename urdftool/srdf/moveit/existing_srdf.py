@@ -25,13 +25,7 @@ DecidePairs = Callable[[], "Verdicts | None"]
 
 @dataclass
 class SrdfChanges:
-    """Changes of an existing SRDF.
-
-    Attributes:
-        groups: Groups that were added.
-        refused: Names of the groups that cannot be added.
-        pairs: Changes of its pairs; None if they were not compared.
-    """
+    """Changes of an existing SRDF."""
 
     groups: list[Group] = field(default_factory=list)
     refused: list[str] = field(default_factory=list)

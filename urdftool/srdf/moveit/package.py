@@ -67,13 +67,7 @@ class PackageFile:
 
 
 class PackageFiles:
-    """Files of a package that is made or completed.
-
-    Attributes:
-        folder: Folder of the package.
-        files: The files.
-        srdf: Changes of an SRDF that existed; None for a new one.
-    """
+    """Files of a package that is made or completed."""
 
     def __init__(self, folder: Path, workspace: Workspace) -> None:
         """Begin without files."""

@@ -36,14 +36,6 @@ def plan_package(
     Existing files are kept; existing parameter files get the keys that they lack. An existing SRDF
     gets the groups that it lacks, and its pairs are updated; the other files match its groups.
 
-    Args:
-        robot: A robot from a URDF or xacro file.
-        folder: Folder of the package, which may exist.
-        distribution: Name of a distribution of ROS 2.
-        make_srdf: Makes the content of a new SRDF, and its text.
-        decide: Decides the pairs of the robot for an existing SRDF.
-        given: Groups that the user asks for.
-
     Raises:
         ModelError: The robot was not read from a URDF or xacro file.
         ConfigError: An existing file of the package cannot be completed, or there are no groups.

@@ -22,14 +22,7 @@ _CLOSE = 1e-5
 def read_back(
     model: Any, bodies: RigidBodyModel, number_of: Mapping[str, int], joints: Sequence[int]
 ) -> list[ReadBack]:
-    """List the differences in mass, center of mass, principal moments, joint and shapes.
-
-    Args:
-        model: MuJoCo's model.
-        bodies: Rigid bodies of the robot.
-        number_of: MuJoCo's body of each link.
-        joints: MuJoCo's joint of each joint.
-    """
+    """List the differences in mass, center of mass, principal moments, joint and shapes."""
     found: list[ReadBack] = []
     number = 0
     for row, body in enumerate(bodies.bodies):

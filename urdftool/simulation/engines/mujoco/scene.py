@@ -29,13 +29,6 @@ def write_model(
 ) -> Path:
     """Write the MJCF of a robot, its meshes and the scene around it; the path of the scene.
 
-    Args:
-        robot: The robot.
-        bodies: The same, prepared.
-        settings: Of this trial.
-        folder: Where the files go.
-        export_mjcf: Exports the robot.
-
     Raises:
         Refused: It has defects past which no MJCF can be written.
     """

@@ -46,14 +46,7 @@ _TOO_DEEP = "XML_ELEMENT_DEPTH_EXCEEDED"
 
 
 class MuJoCoWorld:
-    """A robot above a plane, in MuJoCo.
-
-    Attributes:
-        mj: The library.
-        model: Its model.
-        data: Its state.
-        number_of: Its body of each link.
-    """
+    """A robot above a plane, in MuJoCo."""
 
     def __init__(self, mj: Any, bodies: RigidBodyModel, settings: Settings, folder: Path) -> None:
         """Load the model and set its initial state."""

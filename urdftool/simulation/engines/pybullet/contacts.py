@@ -143,12 +143,6 @@ def forget_contacts(p: Any, robot: int, plane: int, links: Sequence[int]) -> Non
     """Clear the contact points of links with the plane.
 
     Links without one are left alone: to clear them disturbs the contacts of the other links.
-
-    Args:
-        p: PyBullet.
-        robot: PyBullet's index of the robot.
-        plane: PyBullet's index of the plane.
-        links: PyBullet's indices of the links.
     """
     for link in links:
         if not p.getContactPoints(robot, plane, link, -1):

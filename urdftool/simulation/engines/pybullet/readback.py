@@ -20,14 +20,7 @@ _CLOSE = 1e-5
 def read_back(
     p: Any, robot: int, bodies: RigidBodyModel, link_of: Mapping[int, int]
 ) -> list[ReadBack]:
-    """List the differences in mass, center of mass, principal moments, joint and shapes.
-
-    Args:
-        p: PyBullet.
-        robot: PyBullet's index of the robot.
-        bodies: Rigid bodies of the robot.
-        link_of: PyBullet's link of each body.
-    """
+    """List the differences in mass, center of mass, principal moments, joint and shapes."""
     found: list[ReadBack] = []
     for number, body in enumerate(bodies.bodies):
         if number not in link_of:
