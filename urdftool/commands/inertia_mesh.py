@@ -107,7 +107,6 @@ def command(
 def _format_text(
     style: str, file: str, result: Any, body: MeshBody, density: float, scale: tuple[float, ...]
 ) -> str:
-    from ..inertia.rounding import round_number
     from ..report import inertia as report
 
     if style == "json":
@@ -115,7 +114,7 @@ def _format_text(
             "mesh": file,
             "scale": list(scale),
             **body.as_dict(),
-            "density": round_number(density),
+            "density": density,
         }
         return report.as_json(result, facts)
     if style == "table":

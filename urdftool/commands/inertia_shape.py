@@ -41,8 +41,8 @@ def _format_help(shape: Shape) -> str:
     article = "an" if shape.name.startswith("e") else "a"
     return (
         f"Compute the mass properties of {article} {shape.name} ({shape.what}).\n\n"
-        "Numbers have at most twelve significant digits. At a terminal, missing values are asked "
-        "for."
+        "Numbers have six significant digits, and more where a thin plate needs them. At a "
+        "terminal, missing values are asked for."
     )
 
 
@@ -104,13 +104,12 @@ def _run(console: Console, shape: Shape, given: dict[str, Any]) -> int:
 
 def _format_text(style: str, what: str, result: Any, facts: dict[str, Any]) -> str | None:
     """Format the result; None for xacro."""
-    from ..inertia.rounding import round_number
     from ..report import inertia as report
 
-    volume, density = round_number(facts["volume"]), round_number(facts["density"])
     if style == "json":
-        return report.as_json(result, {**facts, "volume": volume, "density": density})
+        return report.as_json(result, facts)
     if style == "table":
+        volume, density = facts["volume"], facts["density"]
         shown = {"volume": f"{volume:.6g} m³", "density": f"{density:.6g} kg/m³"}
         return report.format_table(what, result, shown)
     if style == "xacro":

@@ -1,8 +1,8 @@
 """Inertia as xacro macros: the formulas of ``solids`` as xacro expressions.
 
 Each macro takes the mass [kg] and the sizes [m] of its shape and, as ``xyz`` and ``rpy``, the pose
-of the shape in the link, as in the ``<origin>`` of the geometry. Its numbers are rounded to the
-twelve digits of ``rounding``.
+of the shape in the link, as in the ``<origin>`` of the geometry. Its numbers are rounded to ten
+digits, because xacro cannot keep more where fewer violate the triangle inequality, as of plates.
 """
 
 from __future__ import annotations
@@ -10,9 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import as_tensor, get_components
-from ..model.numbers import format_numbers_text, number_text
-from .rounding import DIGITS
+from ..mechanics.tensor import get_components
+from ..model.numbers import DIGITS, format_numbers_text, number_text
 from .shapes import SHAPES, THICKNESS, Shape, Sizes
 
 NAMESPACE = "http://www.ros.org/wiki/xacro"
@@ -215,8 +214,11 @@ def get_shape_call(
 
 def get_mass_macro(name: str, properties: SpatialInertia) -> str:
     """Return a macro for a body of any shape; its mass parameter defaults to the body's mass."""
-    unit = get_components(as_tensor([part / properties.mass for part in properties.tensor]))
-    six = [f'{key}="{_format_rounded(f"mass * {value!r}")}"' for key, value in unit.items()]
+    scale = f"mass / {number_text(properties.mass)}"
+    six = [
+        f'{key}="{_format_rounded(f"{scale} * {number_text(value)}")}"'
+        for key, value in get_components(properties.tensor).items()
+    ]
     return "\n".join(
         [
             f'<xacro:macro name="{name}_inertia" params="mass:={number_text(properties.mass)}">',

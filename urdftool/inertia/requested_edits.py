@@ -18,10 +18,10 @@ from ..model.read import number, parse_numbers
 from ..source.document import Element
 from .link_review import LinkReview, get_inertial_rotation
 from .requirements import require_consistent
-from .rounding import round_properties
+from .rounding import DIGITS, round_properties
 
-_SAME = 1e-11
-"""Relative difference of numbers that are written with 12 digits. Chosen, no source."""
+_SAME = 10.0 ** (1 - DIGITS)
+"""Relative difference of equal numbers: that of numbers with the digits of ``rounding``."""
 
 
 @dataclass
@@ -109,7 +109,7 @@ def determine_edits(item: LinkReview, *, recompute: bool) -> LinkEdits:
 def _set_numbers(
     inertia: Element, along: SpatialInertia, *, recompute: bool
 ) -> list[RequestedEdit]:
-    """Set those of the six numbers that differ, or are missing.
+    """Set those of the six numbers that are missing or, if one is not the same, that differ.
 
     Unless ``recompute``, a missing product of inertia is set to 0 if all moments are written.
 
@@ -127,10 +127,13 @@ def _set_numbers(
         tensor = as_tensor([{**meant, **kept}[name] for name in COMPONENTS])
         require_consistent(replace(along, tensor=tensor), "the written tensor")
         return [RequestedEdit(inertia, name, number_text(meant[name])) for name in missing]
+    largest = max(map(abs, along.tensor))
+    if all(_is_same_number(inertia.get(name), [meant[name]], largest) for name in COMPONENTS):
+        return []
     return [
         RequestedEdit(inertia, name, number_text(meant[name]))
         for name in COMPONENTS
-        if not _is_same_number(inertia.get(name), [meant[name]], scale=max(map(abs, along.tensor)))
+        if number(inertia.get(name)) != meant[name]
     ]
 
 

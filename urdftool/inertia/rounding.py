@@ -1,10 +1,10 @@
-"""Rounding of mass properties: twelve significant digits, without arithmetic noise.
+"""Rounding of computed mass properties: six significant digits, as a person writes them.
 
-The last few of the sixteen digits of a double are noise: 0.18 · 0.0225 / … gives
-0.00028350000000000003. Numbers are rounded to twelve digits; :mod:`urdftool.model.numbers` writes
-them as the shortest text that reads back as the same number. Products of inertia and coordinates
-below 1e-12 of the body's size are remnants of rotations and become zero. If rounding would violate
-the triangle inequality, as for a thin plate, more digits are kept.
+Masses, sizes and meshes of 32 bits have no more. A center of mass is rounded to a micrometer, or
+to a millionth of the radius of gyration of a body below 1 m, so that remnants of rotations become
+zero, and small bodies far from the origin keep their place. Products of inertia below 1e-12 of the
+moments become zero. If rounding would violate the triangle inequality, as for a thin plate, more
+digits are kept. :mod:`urdftool.model.numbers` writes the numbers as text.
 """
 
 from __future__ import annotations
@@ -14,13 +14,14 @@ from collections.abc import Sequence
 
 from ..mechanics.spatial_inertia import SpatialInertia
 from ..mechanics.tensor import ROUNDING, SymmetricTensor, as_tensor, measure_consistency, trace_of
+from ..model.numbers import round_number
 from .requirements import require_consistent
 
-DIGITS = 12
-"""Number of significant digits."""
+DIGITS = 6
+"""Number of significant digits; chosen: 32-bit meshes have seven, tables of this tool show six."""
 
 NOISE = 1e-12
-"""Threshold, relative to the body's size, below which a number becomes zero."""
+"""Part of the largest moment below which a product of inertia becomes zero."""
 
 _EXACT = 2e-15
 """Relative rounding of sums of doubles: about nine times the distance of 1 from the next."""
@@ -33,23 +34,26 @@ def round_properties(properties: SpatialInertia, what: str = "the result") -> Sp
         InertiaError: They are not physically consistent.
     """
     require_consistent(properties, what)
-    tensor = as_tensor(_remove_noise(properties.tensor, 0.0))
+    tensor = as_tensor(_remove_noise(properties.tensor))
     gyration = math.sqrt(trace_of(tensor) / properties.mass)
-    x, y, z = _round_values(_remove_noise(properties.com, gyration), DIGITS)
+    x, y, z = (_round_position(value, gyration) for value in properties.com)
     return require_consistent(
-        SpatialInertia(round_number(properties.mass), (x, y, z), _make_consistent(tensor)), what
+        SpatialInertia(round_number(properties.mass, DIGITS), (x, y, z), _make_consistent(tensor)),
+        what,
     )
 
 
-def _remove_noise(values: Sequence[float], size: float) -> list[float]:
-    """Replace values below the noise of the largest value, or of a size, by zeros."""
-    least = NOISE * max(size, *map(abs, values))
+def _round_position(value: float, size: float) -> float:
+    """Round a coordinate to 1e-6 m, or to a millionth of a size [m] below 1; 0 rounds digits."""
+    if size == 0:
+        return round_number(value, DIGITS)
+    return round(value, max(DIGITS, DIGITS - math.ceil(math.log10(size)))) + 0.0
+
+
+def _remove_noise(values: Sequence[float]) -> list[float]:
+    """Replace values below the noise of the largest value by zeros."""
+    least = NOISE * max(map(abs, values))
     return [0.0 if abs(value) < least else value for value in values]
-
-
-def round_number(value: float, digits: int = DIGITS) -> float:
-    """Round a number to significant digits; the result is never a negative zero."""
-    return float(f"{value:.{digits}g}") + 0.0
 
 
 def _make_consistent(tensor: SymmetricTensor) -> SymmetricTensor:

@@ -58,8 +58,18 @@ def round_noise(value: float) -> float:
     """Round a number to ten significant digits if the change is within rounding noise."""
     if not math.isfinite(value) or value == 0:
         return value
-    short = float(f"{value:.{DIGITS}g}")
+    short = round_number(value)
     return short if abs(short - value) <= NOISE * math.ulp(value) else value
+
+
+def remove_noise(values: Iterable[float]) -> list[float]:
+    """Return positions [m], angles [rad] or parts of quaternions without rounding errors."""
+    return [0.0 if abs(value) < NOTHING else round_noise(value) for value in values]
+
+
+def round_number(value: float, digits: int = DIGITS) -> float:
+    """Round a number to significant digits; the result is never a negative zero."""
+    return float(f"{value:.{digits}g}") + 0.0
 
 
 def number_text(value: float) -> str:
@@ -82,7 +92,7 @@ def format_numbers_text(values: Iterable[float]) -> str:
 
 def format_pose_text(values: Iterable[float]) -> str:
     """Format positions [m] and angles [rad], separated by blanks; rounding errors of 0 are 0."""
-    return " ".join("0" if abs(value) < NOTHING else number_text(value) for value in values)
+    return format_numbers_text(remove_noise(values))
 
 
 def format_content(content: _Content) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,6 +11,7 @@ from ..collision.compute import Result, Task, format_scale
 from ..collision.notes import CLOSED_GAP, MORE_PIECES, SHOWN
 from ..collision.rewrite import format_geometry_tag
 from ..collision.robot import Written
+from .json_text import format_json
 from .tables import render_table
 
 _HEAD = (
@@ -136,7 +136,7 @@ def get_rows(written: Written, results: Mapping[Task, Result]) -> list[Row]:
 def as_json(reports: Sequence[Report], *, timings: bool = False) -> str:
     """Format all reports as one object; ``timings`` as in :meth:`Report.as_dict`."""
     records = [report.as_dict(timings=timings) for report in reports]
-    return json.dumps({"version": 1, "results": records}, indent=2) + "\n"
+    return format_json({"version": 1, "results": records}, 2) + "\n"
 
 
 def format_table(rows: Sequence[Row]) -> str:

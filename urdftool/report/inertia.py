@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from typing import Any
 
-from ..inertia.rounding import round_number
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import COMPONENTS, SymmetricTensor, compute_principal_axes, get_components
-from ..model.numbers import format_numbers_text, number_text
+from ..mechanics.tensor import COMPONENTS, compute_principal_axes, get_components
+from ..model.numbers import format_numbers_text, number_text, remove_noise
+from .json_text import format_json
 
 
 def format_urdf(properties: SpatialInertia) -> str:
@@ -55,7 +54,7 @@ def format_mjcf(properties: SpatialInertia) -> str:
 
 def as_json(properties: SpatialInertia, facts: Mapping[str, Any]) -> str:
     """Format mass properties, derived values and additional facts as one object."""
-    return json.dumps({"version": 1, **build_numbers(properties), **facts}, indent=2) + "\n"
+    return format_json({"version": 1, **build_numbers(properties), **facts}, 2) + "\n"
 
 
 def build_numbers(properties: SpatialInertia) -> dict[str, Any]:
@@ -63,9 +62,9 @@ def build_numbers(properties: SpatialInertia) -> dict[str, Any]:
     moments, axes = compute_principal_axes(properties.tensor)
     return {
         **properties.as_dict(),
-        "inertia_about_origin": _round_components(properties.about_origin),
-        "principal_moments": [round_number(float(moment)) for moment in moments],
-        "principal_axes": [[float(value) for value in axis] for axis in axes.T],
+        "inertia_about_origin": get_components(properties.about_origin),
+        "principal_moments": list(map(float, moments)),
+        "principal_axes": [remove_noise(map(float, axis)) for axis in axes.T],
     }
 
 
@@ -96,10 +95,6 @@ def format_summary(what: str, properties: SpatialInertia) -> str:
     six = get_components(properties.tensor)
     moments = ", ".join(f"{name} {six[name]:.6g}" for name in ("ixx", "iyy", "izz"))
     return f"{what}: {properties.mass:.6g} kg; {moments} kg m² about the center of mass"
-
-
-def _round_components(tensor: SymmetricTensor) -> dict[str, float]:
-    return {name: round_number(value) for name, value in get_components(tensor).items()}
 
 
 def _format_attributes(six: Mapping[str, float]) -> str:

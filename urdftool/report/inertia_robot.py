@@ -155,7 +155,7 @@ def _format_tensor(tensor: SymmetricTensor, link: Link, form: str) -> str:
     if form == "mjcf":
         origin = None if link.inertial is None else link.inertial.origin
         return _format_mjcf(rotate_tensor(tensor, make_pose(origin).rotation))
-    six = get_components(_round_noise(SpatialInertia(1.0, tensor=tensor)).tensor)
+    six = _round_components(tensor)
     if form == "sdf":
         inner = "".join(f"<{key}>{number_text(value)}</{key}>" for key, value in six.items())
         return f"<inertia>{inner}</inertia>"
@@ -168,7 +168,7 @@ def _format_attribute(key: str, value: float) -> str:
 
 def _format_mjcf(tensor: SymmetricTensor) -> str:
     """Return attributes of ``<inertial>`` for a tensor in the axes of the body."""
-    six = get_components(_round_noise(SpatialInertia(1.0, tensor=tensor)).tensor)
+    six = _round_components(tensor)
     moments = [number_text(six[key]) for key in ("ixx", "iyy", "izz")]
     products = [number_text(six[key]) for key in ("ixy", "ixz", "iyz")]
     if all(text == "0" for text in products):
@@ -179,6 +179,10 @@ def _format_mjcf(tensor: SymmetricTensor) -> str:
 def _format_distance(item: LinkReview) -> str:
     ratio = " ".join(f"{value:.3g}" for value in item.comparison.ratio) if item.comparison else ""
     return f"the inertia is possible, but {ratio} times what the geometry implies"
+
+
+def _round_components(tensor: SymmetricTensor) -> dict[str, float]:
+    return get_components(_round_noise(SpatialInertia(1.0, tensor=tensor)).tensor)
 
 
 def _round_noise(properties: SpatialInertia) -> SpatialInertia:
@@ -252,7 +256,7 @@ def _build_proposal(proposal: Proposal | None) -> dict[str, Any] | None:
     return {
         "kind": proposal.kind,
         "sentence": proposal.sentence,
-        "inertia": get_components(proposal.tensor),
+        "inertia": _round_components(proposal.tensor),
     }
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from ..srdf.content import format_positions
 from ..srdf.verdicts import ADJACENT, ALWAYS, CAN_TOUCH, DEFAULT, NEVER, OPEN, Verdict, Verdicts
 from .counted import format_count
+from .json_text import format_json
 
 _ORDER = (ADJACENT, NEVER, ALWAYS, DEFAULT, CAN_TOUCH, OPEN)
 
@@ -92,4 +92,4 @@ def _as_dict(verdict: Verdict) -> dict[str, Any]:
 
 def to_json(verdicts: Verdicts) -> str:
     """Return the verdicts as JSON."""
-    return json.dumps(as_dict(verdicts), indent=2) + "\n"
+    return format_json(as_dict(verdicts), 2) + "\n"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -22,6 +21,7 @@ from ..srdf.existing import (
 from ..srdf.update import Update, describe_removal
 from ..srdf.verdicts import CAN_TOUCH
 from .counted import format_count
+from .json_text import format_json
 
 _COUNTED = (
     (CONFIRMED, "proved"),
@@ -86,7 +86,7 @@ def to_json(found: Sequence[Judgement]) -> str:
         "summary": {code: counts[code] for code, _ in _COUNTED},
         "pairs": [_as_dict(judgement) for judgement in found],
     }
-    return json.dumps(data, indent=2) + "\n"
+    return format_json(data, 2) + "\n"
 
 
 def _as_dict(judgement: Judgement) -> dict[str, Any]:
@@ -119,7 +119,7 @@ def format_changes_as_json(changes: Update) -> str:
         "kept": [{**_as_dict(judgement), "why": why} for judgement, why in changes.kept],
         "not_added": [{**_as_dict(judgement), "why": why} for judgement, why in changes.refused],
     }
-    return json.dumps(data, indent=2) + "\n"
+    return format_json(data, 2) + "\n"
 
 
 def list_changes(changes: Update) -> Iterator[str]:

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from ...model.elements import Joint, Robot
+from ...model.numbers import round_noise
 from ...model.start import start_positions
 from ..common.directory import mark_usda, write_beside
 from ..common.srdf import read_srdf
@@ -146,7 +147,7 @@ class _Config:
         clipped = [joint.name for joint in self._joints
                    if moved.get(joint.name) == positions.get(joint.name, 0.0) != 0.0]  # fmt: skip
         for joint in (*self._joints, *self._followers):
-            value = positions.get(joint.name, 0.0)
+            value = round_noise(positions.get(joint.name, 0.0))
             yield f"            {json.dumps(self._names.joint[joint.name])}: {value!r},"
         if clipped:
             shown = ", ".join(f"'{name}'" for name in clipped)

@@ -11,6 +11,7 @@ from pxr import Gf, Sdf, Usd, UsdPhysics
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Vector
 from ...model.kinematics import get_limits
+from ...model.numbers import remove_noise
 from ...model.pose import (
     IDENTITY,
     Pose,
@@ -316,9 +317,9 @@ def _rotate_between(start: Vector, end: Vector) -> Rotation:
 
 
 def _set_frames(joint: UsdPhysics.Joint, first: Pose, second: Pose) -> None:
-    joint.CreateLocalPos0Attr(Gf.Vec3f(*(x + 0.0 for x in first.translation)))
+    joint.CreateLocalPos0Attr(Gf.Vec3f(*remove_noise(first.translation)))
     joint.CreateLocalRot0Attr(Gf.Quatf(*compute_quaternion(first.rotation)))
-    joint.CreateLocalPos1Attr(Gf.Vec3f(*(x + 0.0 for x in second.translation)))
+    joint.CreateLocalPos1Attr(Gf.Vec3f(*remove_noise(second.translation)))
     joint.CreateLocalRot1Attr(Gf.Quatf(*compute_quaternion(second.rotation)))
 
 

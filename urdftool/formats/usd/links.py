@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics
 
 from ...model.elements import Link
+from ...model.numbers import remove_noise
 from ...model.pose import Pose
 from .bodies import Bodies
 from .inertials import BodyInertia
@@ -60,7 +61,7 @@ def _set_mass(prim: Usd.Prim, inertia: BodyInertia) -> None:
     mass = UsdPhysics.MassAPI.Apply(prim)
     body = inertia.body
     mass.CreateMassAttr(body.mass)
-    mass.CreateCenterOfMassAttr(Gf.Vec3f(*(x + 0.0 for x in body.com)))
+    mass.CreateCenterOfMassAttr(Gf.Vec3f(*remove_noise(body.com)))
     mass.CreateDiagonalInertiaAttr(Gf.Vec3f(*inertia.moments.tolist()))
     rows: list[list[float]] = inertia.axes.tolist()
     rotation = tuple(tuple(row) for row in rows)

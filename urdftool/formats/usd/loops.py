@@ -5,6 +5,7 @@ from __future__ import annotations
 from pxr import Gf, UsdGeom, UsdPhysics
 
 from ...model.elements import Robot
+from ...model.numbers import remove_noise
 from ...model.pose import Pose, make_pose
 from ..common.naming import UniqueNames
 from ..written import Written
@@ -55,9 +56,9 @@ def write_closures(joints: JointWriter, written: Written) -> None:
                     Pose(translation=first.translation),
                     Pose(translation=second.translation),
                 )
-            joint.CreateLocalPos0Attr(Gf.Vec3f(*first.translation))
+            joint.CreateLocalPos0Attr(Gf.Vec3f(*remove_noise(first.translation)))
             joint.CreateLocalRot0Attr(Gf.Quatf(*compute_quaternion(first.rotation)))
-            joint.CreateLocalPos1Attr(Gf.Vec3f(*second.translation))
+            joint.CreateLocalPos1Attr(Gf.Vec3f(*remove_noise(second.translation)))
             joint.CreateLocalRot1Attr(Gf.Quatf(*compute_quaternion(second.rotation)))
             if not closure.is_active:
                 joint.CreateJointEnabledAttr(False)

@@ -8,6 +8,7 @@ from typing import Any
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics
 
 from ... import __version__
+from ...model.numbers import remove_noise
 from ...model.pose import IDENTITY, Pose, Rotation, quaternion_from_rotation
 
 GEOMETRY, MATERIALS, PHYSICS, PHYSX, ISAAC = "geometry", "materials", "physics", "physx", "isaac"
@@ -67,19 +68,19 @@ def set_pose(prim: Usd.Prim, pose: Pose, scale: Sequence[float] | None = None) -
     """Write translation and orientation in double precision, and a scale if given."""
     form = UsdGeom.Xformable(prim)
     double = UsdGeom.XformOp.PrecisionDouble
-    form.AddTranslateOp(double).Set(Gf.Vec3d(*(x + 0.0 for x in pose.translation)))
+    form.AddTranslateOp(double).Set(Gf.Vec3d(*remove_noise(pose.translation)))
     form.AddOrientOp(double).Set(Gf.Quatd(*compute_quaternion(pose.rotation)))
     if scale is not None:
         form.AddScaleOp(double).Set(Gf.Vec3d(*scale))
 
 
 def compute_quaternion(rotation: Rotation) -> tuple[float, float, float, float]:
-    """Return the quaternion ``(w, x, y, z)`` of a rotation with a nonnegative w, without -0."""
+    """Return the quaternion ``(w, x, y, z)`` of a rotation with a nonnegative w, without noise."""
     if rotation is IDENTITY.rotation:
         return 1.0, 0.0, 0.0, 0.0
     four = quaternion_from_rotation(rotation)
     sign = -1.0 if four[0] < 0 else 1.0
-    w, x, y, z = (sign * part + 0.0 for part in four)
+    w, x, y, z = remove_noise(sign * part for part in four)
     return w, x, y, z
 
 

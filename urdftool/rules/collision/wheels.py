@@ -143,7 +143,7 @@ def align_cylinder_and_axis(problem: Problem, context: FixContext) -> Proposal |
     largest = max(range(3), key=lambda i: abs(axis[i]))
     if abs(axis[largest]) < 0.999 * compute_norm(axis):
         return None
-    rpy = ("0 1.5707963267948966 0", "1.5707963267948966 0 0", "0 0 0")[largest]
+    rpy = ("0 1.5708 0", "1.5708 0 0", "0 0 0")[largest]
     collision = link.collisions[0]
     if collision.origin is not None and collision.origin.quaternion is not None:
         return None

@@ -87,7 +87,7 @@ def write_unit_axis(problem: Problem, context: FixContext) -> Proposal | None:
     if joint.axis is None:
         return None
     length = compute_norm(joint.axis.xyz)
-    unit = format_numbers((part / length for part in joint.axis.xyz), 17)
+    unit = format_numbers(part / length for part in joint.axis.xyz)
     return unsafe(f'write xyz="{unit}"', set_attribute(joint.axis.element, "xyz", unit))
 
 

@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Mimic, Robot
+from ...model.numbers import number_text
 from ...source.document import Element
-from ..fix import FixContext, Proposal, format_numbers, get_suggestion, set_attribute, unsafe
+from ..fix import FixContext, Proposal, get_suggestion, set_attribute, unsafe
 from ..rule import (
     ANY_FORMAT,
     ERROR,
@@ -244,7 +245,7 @@ def follow_first_leader(problem: Problem, context: FixContext) -> Proposal | Non
     changes = [set_attribute(mimic.element, "joint", data["joint"])]
     for name, default in (("multiplier", 1.0), ("offset", 0.0)):
         if data[name] != default or name in mimic.element.attributes:
-            changes.append(set_attribute(mimic.element, name, format_numbers([data[name]], 15)))
+            changes.append(set_attribute(mimic.element, name, number_text(data[name])))
     return unsafe(f"mimic '{data['joint']}'", *changes)
 
 

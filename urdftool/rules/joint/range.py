@@ -8,13 +8,13 @@ from collections.abc import Iterator
 
 from ...model.angles import format_angles
 from ...model.elements import Joint, Limit, Link, Robot
+from ...model.numbers import format_numbers_text, number_text
 from ...model.references import has_block
 from ..cross_file_references import check_alone
 from ..fix import (
     FixContext,
     Proposal,
     find_attribute,
-    format_numbers,
     remove_attribute,
     set_attribute,
     unsafe,
@@ -329,14 +329,14 @@ def write_limits_in_meters(problem: Problem, context: FixContext) -> Proposal | 
         values = [float(word) / 1000 for word in (element.get("xyz") or "").split()]
         if not _FAR / 1000 <= max(map(abs, values)) <= _FARTHEST / 1000:
             return None
-        text = format_numbers(values, 12)
+        text = format_numbers_text(values)
         return unsafe(f'write xyz="{text}"', set_attribute(element, "xyz", text))
     if joint.limit is None:
         return None
     if not _FAR <= max(abs(joint.limit.lower or 0.0), abs(joint.limit.upper or 0.0)) <= _FARTHEST:
         return None
     changes = [
-        set_attribute(element, bound, format_numbers([value / 1000], 12))
+        set_attribute(element, bound, number_text(value / 1000))
         for bound, value in (("lower", joint.limit.lower), ("upper", joint.limit.upper))
         if value
     ]

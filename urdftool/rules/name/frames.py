@@ -131,7 +131,7 @@ def turn_optical_frame(problem: Problem, context: FixContext) -> Proposal | None
         joint.origin is not None and "quat_xyzw" in joint.origin.element.attributes
     ):
         return None
-    rpy = "-1.5707963267948966 0 -1.5707963267948966"
+    rpy = "-1.5708 0 -1.5708"
     return unsafe(f'write rpy="{rpy}"', set_in_origin(joint, "rpy", rpy))
 
 

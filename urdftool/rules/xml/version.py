@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterator
 
+from ...model.angles import format_angles
 from ...model.elements import Robot
 from ...model.pose import rotation_from_quaternion, rpy_from_rotation
 from ...model.read import parse_numbers
@@ -18,7 +19,6 @@ from ..fix import (
     Span,
     find_attribute,
     find_element,
-    format_numbers,
     remove_attribute,
     set_attribute,
     unsafe,
@@ -150,7 +150,7 @@ def write_rpy(problem: Problem, context: FixContext) -> Proposal | None:
         if quaternion is None or math.hypot(*quaternion) < 1e-9:
             return None
         x, y, z, w = quaternion
-        rpy = format_numbers(rpy_from_rotation(rotation_from_quaternion((w, x, y, z))), 12)
+        rpy = format_angles(rpy_from_rotation(rotation_from_quaternion((w, x, y, z))), 10)
         return unsafe(
             f'write rpy="{rpy}"',
             remove_attribute(element, "quat_xyzw"),
