@@ -6,7 +6,7 @@ import pytest
 
 from urdftool.api.lint import check
 from urdftool.dependencies import compute_answer
-from urdftool.lint.imported_readers import find_imported_readers
+from urdftool.lint.imported_readers import Use, find_imported_readers
 from urdftool.source.description import read_description
 from urdftool.workspace import Workspace
 
@@ -157,7 +157,7 @@ def test_only_code_of_the_project_makes_a_report_old(tmp_path):
     _names(tmp_path, "import pybullet\n")
     robot = tmp_path / "data" / "cart.urdf"
     found, asked = _find_readers(robot)
-    assert found == {"pybullet"}
+    assert found == Use(frozenset(("pybullet",)))
     before = [compute_answer(one) for one in asked]
     for name in (".cache/a.py", "__pycache__/env.pyc", "build/b.py", "data/report.json"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
@@ -166,7 +166,7 @@ def test_only_code_of_the_project_makes_a_report_old(tmp_path):
     assert [compute_answer(one) for one in asked] == before
     (tmp_path / "data" / "more.py").write_text("import mujoco\n")
     assert [compute_answer(one) for one in asked] != before
-    assert _find_readers(robot)[0] == {"pybullet", "mujoco"}
+    assert _find_readers(robot)[0].readers == {"pybullet", "mujoco"}
 
 
 def test_code_of_a_virtual_environment_says_nothing(tmp_path):
@@ -174,7 +174,7 @@ def test_code_of_a_virtual_environment_says_nothing(tmp_path):
     (tmp_path / "env").mkdir()
     (tmp_path / "env" / "pyvenv.cfg").write_text("")
     (tmp_path / "env" / "tool.py").write_text("import isaacgym\n")
-    assert _find_readers(tmp_path / "data" / "cart.urdf")[0] == {"pybullet"}
+    assert _find_readers(tmp_path / "data" / "cart.urdf")[0].readers == {"pybullet"}
 
 
 LEFT = """<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
@@ -202,3 +202,32 @@ def test_leftovers_of_ros_in_a_package_for_another_engine(tmp_path, code, mark, 
     names = _names(tmp_path, code, mark, robot)
     assert ("unprefixed-hardware-interface" in names) is reported
     assert ("dangling-reference" in names) is reported
+
+
+@pytest.mark.parametrize(
+    ("manifest", "reported"),
+    [
+        ("<package><name>hpp_cart</name></package>", False),
+        ("<package><name>cart</name><depend>hpp-manipulation</depend></package>", False),
+        ("<package><name>cart</name><!-- <depend>hpp-manipulation</depend> --></package>", True),
+        ("<package><name>hppy</name><depend>coal</depend></package>", True),
+    ],
+)
+def test_a_planner_uses_no_inertia_and_no_gazebo(tmp_path, manifest, reported):
+    (tmp_path / "package.xml").write_text(manifest)
+    robot = ROBOT.replace("</robot>", f"{LEFT}</robot>").replace('upper="0.04"', 'upper="-1"')
+    names = _names(tmp_path, "", "other.txt", robot)
+    assert ("placeholder-inertia" in names) is reported
+    assert ("dangling-reference" in names) is reported
+    assert "lower-above-upper" in names
+
+
+@pytest.mark.parametrize(("code", "reported"), [("import pybullet", False), ("", True)])
+@pytest.mark.parametrize("flag", ["", "flags = pybullet.URDF_USE_INERTIA_FROM_FILE"])
+def test_a_remark_about_another_engine_is_off_whatever_pybullet_does_with_inertias(
+    tmp_path, code, flag, reported
+):
+    shape = '<geometry><mesh filename="a.dae"/></geometry>'
+    robot = ROBOT.replace('<geometry><box size="0.1 0.1 0.1"/></geometry>', shape)
+    names = _names(tmp_path, f"{code}\n{flag}\n", robot=robot)
+    assert ("dae-as-collision" in names) is reported

@@ -456,3 +456,143 @@ def test_a_frame_of_tf_is_for_ros(tmp_path, targets, severity):
     write(tmp_path, {"r.urdf": f'<robot name="r"><link name="a">{MASS}</link>{sensor}</robot>'})
     found = find(tmp_path / "r.urdf", "missing-gz-frame-id", targets=targets)
     assert [level for _, level, _ in found] == [severity]
+
+
+def _chain(*masses):
+    """Return a robot of links on fixed joints, each with a box and a mass, or no inertial."""
+    links = "".join(
+        f'<link name="l{i}">{MASS if mass else ""}<visual>{BOX}</visual></link>'
+        for i, mass in enumerate(masses)
+    )
+    joints = "".join(
+        f'<joint name="j{i}" type="{"fixed" if fixed else "revolute"}"><parent link="l{i}"/>'
+        f'<child link="l{i + 1}"/><limit lower="-1" upper="1" effort="9" velocity="9"/></joint>'
+        for i, fixed in enumerate((False, True)[: len(masses) - 1])
+    )
+    return f'<robot name="r">{links}{joints}</robot>'
+
+
+@pytest.mark.parametrize(
+    ("root", "said"), [(True, "lump it into the link with mass"), (False, "load nothing")]
+)
+def test_gazebo_lumps_no_link_of_a_robot_whose_root_has_no_mass(tmp_path, root, said):
+    """Run with sdformat 12.3: it writes a model without a link."""
+    write(tmp_path, {"r.urdf": _chain(root, False, True)})
+    report, _ = check(tmp_path / "r.urdf", "missing-inertial")
+    effects = {f.name: f.effects["gz, gazebo-classic"] for f in report.findings}
+    assert said in effects["l1"]
+
+
+@pytest.mark.parametrize(
+    ("part", "compiler", "readers"),
+    [
+        ("visual", "", []),
+        ("visual", '<mujoco><compiler discardvisual="false"/></mujoco>', ["mujoco", "drake"]),
+        ("collision", "", ["mujoco", "drake"]),
+    ],
+)
+def test_mujoco_does_not_warn_of_names_of_visuals_that_it_discards(
+    tmp_path, part, compiler, readers
+):
+    shape = f'<{part} name="lid">{BOX}</{part}>'
+    robot = f'<robot name="r">{compiler}<link name="a">{MASS}{shape}{shape}</link></robot>'
+    write(tmp_path, {"r.urdf": robot})
+    report = check_file(tmp_path / "r.urdf", Options(Settings()))
+    found = [f for f in report.findings if f.code == "duplicate-geometry-name"]
+    assert [list(f.effects) for f in found] == ([readers] if readers else [])
+
+
+@pytest.mark.parametrize(
+    ("look", "said"),
+    [
+        ('<texture filename="a.png"/>', "texture of material 'gray' differs from the color in"),
+        ('<color rgba="1 0 0 1"/>', "color of material 'gray' differs from that in"),
+        ('<color rgba="0.8 0.8 0.8 1"/>', ""),
+    ],
+)
+def test_a_texture_beside_a_color_is_no_other_color(tmp_path, look, said):
+    top = '<material name="gray"><color rgba="0.8 0.8 0.8 1"/></material>'
+    visual = f'<visual>{BOX}<material name="gray">{look}</material></visual>'
+    write(tmp_path, {"r.urdf": f'<robot name="r">{top}<link name="a">{visual}</link></robot>'})
+    report, _ = check(tmp_path / "r.urdf", "conflicting-material")
+    assert [said in f.message for f in report.findings] == [True] * bool(said)
+    assert all(("pybullet" in f.effects) is ("texture" not in look) for f in report.findings)
+
+
+@pytest.mark.parametrize(
+    ("name", "severity"), [("drill", None), ("other", "WARNING"), ("", "WARNING")]
+)
+def test_pinocchio_knows_the_capsules_of_a_link_by_name(tmp_path, name, severity):
+    """Run with pinocchio 4.1: a cylinder of that name becomes a capsule."""
+    collision = f'<collision name="{name}">' if name else "<collision>"
+    tool = f'{collision}{BOX}</collision><collision_checking><capsule name="drill"/>'
+    robot = f'<robot name="r"><link name="a">{tool}</collision_checking></link></robot>'
+    write(tmp_path, {"r.urdf": robot})
+    found = find(tmp_path / "r.urdf", "unknown-element")
+    assert [one[1] for one in found] == [severity] * bool(severity)
+    assert fix(tmp_path / "r.urdf", "unknown-element")[0] == robot
+
+
+@pytest.mark.parametrize(("tag", "effects"), [("sensor:camera", False), ("camera", True)])
+def test_newton_takes_no_inertia_from_a_file_with_an_undeclared_prefix(tmp_path, tag, effects):
+    """Run with Newton 1.8: ParseError, unbound prefix."""
+    inertial = MASS.replace('izz="0.0017"', 'izz="0.5"')
+    block = f"<gazebo><{tag}/></gazebo>"
+    robot = f'<robot name="r"><link name="a">{inertial}</link>{block}</robot>'
+    write(tmp_path, {"r.urdf": robot})
+    report, _ = check(tmp_path / "r.urdf", "inertia-triangle-inequality")
+    (finding,) = report.findings
+    assert ("newton" in ", ".join(finding.effects)) is effects
+
+
+SRDF = (
+    '<robot name="r"><group name="g"><link name="a"/><link name="{}"/></group>'
+    '<disable_collisions link1="a" link2="{}" reason="Never"/></robot>'
+)
+
+
+@pytest.mark.parametrize(("link", "count"), [("c", 0), ("d", 1)])
+def test_an_srdf_is_that_of_the_robot_with_its_links(tmp_path, link, count):
+    """Two robots have one name: the SRDF with links of the other is not about this one."""
+    write(
+        tmp_path,
+        {
+            "seven.urdf": '<robot name="r"><link name="a"/><link name="b"/></robot>',
+            "six_camera.urdf": '<robot name="r"><link name="a"/><link name="c"/></robot>',
+            "six.srdf": SRDF.format(link, link),
+        },
+    )
+    found = find(tmp_path / "seven.urdf", "srdf-unknown-link")
+    assert len(found) == count
+    assert len(find(tmp_path / "six_camera.urdf", "srdf-unknown-link")) == count
+
+
+PITCH = """<mujoco><asset><mesh name="pitch" file="pitch.stl"{scale}/></asset><worldbody>
+<body name="field"><geom type="mesh" mesh="pitch" contype="0" conaffinity="0" mass="1"/></body>
+<body name="board" pos="0 10 0"><geom type="box" size="{half} 0.05 0.2"/></body>
+<body name="ball"><freejoint/><geom size="0.1"/></body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(("half", "count"), [("14", 0), ("1", 1)])
+def test_a_pitch_of_22_m_is_not_in_millimeters(tmp_path, half, count):
+    pytest.importorskip("mujoco")
+    trimesh = pytest.importorskip("trimesh")
+    trimesh.creation.box((22, 14, 0.1)).export(tmp_path / "pitch.stl")
+    write(tmp_path, {"pitch.xml": PITCH.format(half=half, scale="")})
+    found = check_other(tmp_path / "pitch.xml", "mesh-in-millimeters")
+    assert len(found) == count
+
+
+def check_other(path, *rules):
+    """Check a robot in another format than URDF."""
+    from urdftool.api.lint import check as check_robot
+
+    return check_robot(path, select=list(rules))
+
+
+def test_damping_that_mujoco_takes_as_written_is_a_warning(tmp_path):
+    pytest.importorskip("mujoco")
+    body = '<body><joint name="j" damping="-0.01"/><geom size="0.1"/></body>'
+    write(tmp_path, {"r.xml": f"<mujoco><worldbody>{body}</worldbody></mujoco>"})
+    (finding,) = check_other(tmp_path / "r.xml", "negative-dynamics")
+    assert finding.severity.name == "WARNING"

@@ -85,6 +85,20 @@ def test_a_mass_that_its_inertia_goes_with_is_another_material(write):
     assert check(write("steel.urdf", text), select=("mass-outlier",)) == []
 
 
+@pytest.mark.parametrize(
+    ("link", "part", "found"), [("pillar", 1, 1), ("pillar", 0.4, 0), ("forearm", 0.4, 1)]
+)
+def test_a_root_with_motor_and_electronics_is_denser_than_the_others(write, link, part, found):
+    """A root of 2400 kg/m³ beside links of 500 kg/m³, and one of 6000 kg/m³."""
+    text = (RULES / "mass-outlier" / "bad.urdf").read_text()
+    if link == "pillar":  # exchange the two
+        names = {"pillar": "forearm", "forearm": "pillar"}
+        text = re.sub(r'(<link name=")(pillar|forearm)"', lambda m: f'{m[1]}{names[m[2]]}"', text)
+    numbers = re.compile(r'((?:mass value|i[xyz][xyz])=")([\d.]+)"')
+    text = numbers.sub(lambda m: f'{m[1]}{float(m[2]) * part:g}"', text)
+    assert len(check(write("root.urdf", text), select=("mass-outlier",))) == found
+
+
 VISUAL = '<visual><origin xyz="{}"/><geometry><mesh filename="arm.stl"/></geometry></visual>'
 
 

@@ -135,7 +135,7 @@ def _explain_ignored(
     if evidence.target in inference.targets:
         return ""
     if inference.imported:
-        return f"the code of the project imports {', '.join(sorted(inference.imported))}"
+        return f"the project uses {', '.join(sorted(inference.imported))}"
     if evidence.target not in GENERATIONS:
         return "the description is for ROS 2"
     if not signs.plugins and signs.first_block is None:

@@ -1,8 +1,9 @@
 """Readers of robots that the Python code of a project imports: who uses the description there.
 
-A package such as an environment of PyBullet brings its robots for one engine. What another engine
-would do with an implausible inertia is not seen there, so such findings are off by default, and
-the last lines of a report count them.
+A package such as an environment of PyBullet brings its robots for one engine, one of the Humanoid
+Path Planner (HPP) for a planner without dynamics. What another engine would do with an implausible
+inertia is not seen there, so such findings are off by default, and the last lines of a report count
+them.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
+from typing import NamedTuple
 
 from ..diagnostic import Severity
 from ..errors import UrdftoolError
@@ -17,7 +19,9 @@ from ..finding import Finding
 from ..model.elements import Robot
 from ..projects import list_above
 from ..rules.rule import GAZEBO, ROS, Rule
+from ..source.comments import blank_comments
 from ..source.description import Description
+from ..source.nearby_files import read_optional_file
 from ..workspace import Workspace, memoize_by_workspace
 
 _READERS = {
@@ -28,9 +32,38 @@ _READERS = {
     **dict.fromkeys(("jiminy_py", "gym_jiminy"), "pinocchio"),
     "pydrake": "drake",
     "newton": "newton",
+    **dict.fromkeys(("hpp", "pyhpp", "hppfcl", "coal", "gepetto"), "pinocchio"),
     **dict.fromkeys(("ikpy", "kinpy", "pytorch_kinematics", "tracikpy", "pyroki"), "kinematics"),
 }
 """Reader, as effects name it, of each library; "kinematics" reads no masses and no collisions."""
+
+_WITHOUT_DYNAMICS = frozenset(
+    (
+        *("ikpy", "kinpy", "pytorch_kinematics", "tracikpy", "pyroki"),
+        *("hpp", "pyhpp", "hppfcl", "coal", "gepetto"),
+    )
+)
+"""Libraries of kinematics, distances and path planning."""
+
+_OF_PLANNER = re.compile(rb"<(name|\w*depend)>\s*hpp[-_][\w-]+\s*</\1>")
+"""What a package.xml of HPP says: its name, or a package that it depends on."""
+
+
+class Use(NamedTuple):
+    """Who uses the descriptions of a project.
+
+    Attributes:
+        readers: The readers, as effects name them.
+        moves: Whether one of them computes dynamics.
+        keeps_inertia: Whether PyBullet gets the flag that keeps inertias.
+    """
+
+    readers: frozenset[str]
+    moves: bool = True
+    keeps_inertia: bool = False
+
+
+_PLANNER = Use(frozenset(("pinocchio",)), moves=False)
 
 _OTHER_ENGINES = frozenset(
     (
@@ -59,18 +92,18 @@ _FILES = _FOLDERS = 400
 _BYTES = 1 << 20
 """Maximum size of a file of code; of a larger one, nothing is known. Chosen, no source."""
 
+_UNAFFECTED = re.compile(r"(?:accept|read)s? it$")
+"""Effect on a reader to which the finding does not matter."""
+
 _SIMULATORS = frozenset(("gz", "gazebo-classic", "mujoco", "pybullet", "drake", "newton"))
 
 
-def find_imported_readers(
-    description: Description, targets: frozenset[str]
-) -> frozenset[str] | None:
-    """Find the readers for which a project brings a description, as effects name them.
+def find_imported_readers(description: Description, targets: frozenset[str]) -> Use | None:
+    """Find the readers for which a project brings a description.
 
     Returns:
-        The readers; None if the code imports none, or an engine that effects do not name, if the
-        project is for ROS, where others use its packages, or if it sets the flag of PyBullet that
-        keeps inertias.
+        The readers; None if the code imports none, or an engine that effects do not name, or if the
+        project is for ROS, where others use its packages.
     """
     if description.path == "-" or not targets.isdisjoint(ROS):
         return None
@@ -80,10 +113,18 @@ def find_imported_readers(
     for place in list_above(folder, files):
         holds_module = below is not None and files.exists(below / "__init__.py")
         below = place
+        if is_of_planner(files, place):
+            return _PLANNER
         if _is_packaged(files, place, holds_module):
             found = _read_imports(files, str(place))
-            return None if found is None else found | targets
+            return found and found._replace(readers=found.readers | targets)
     return None
+
+
+def is_of_planner(files: Workspace, folder: Path) -> bool:
+    """Tell whether a folder is that of a package of HPP, a planner without dynamics."""
+    manifest = read_optional_file(files, folder / "package.xml")
+    return manifest is not None and bool(_OF_PLANNER.search(blank_comments(manifest.data)))
 
 
 def _is_packaged(files: Workspace, folder: Path, holds_module: bool) -> bool:
@@ -104,7 +145,7 @@ def _is_packaged(files: Workspace, folder: Path, holds_module: bool) -> bool:
 
 
 @memoize_by_workspace
-def _read_imports(files: Workspace, folder: str) -> frozenset[str] | None:
+def _read_imports(files: Workspace, folder: str) -> Use | None:
     """Return the readers that code imports or names; None if it imports none.
 
     A name in other text, such as a requirement, a module that is imported by its name or a comment,
@@ -120,32 +161,46 @@ def _read_imports(files: Workspace, folder: str) -> frozenset[str] | None:
         waiting += (os.path.join(place, name) for name in folders)
     imported: set[bytes] = set()
     named: set[bytes] = set()
+    keeps_inertia = False
     for path in paths:
         try:
             text = files.read_bytes(path, _BYTES)
         except (OSError, UrdftoolError):
             return None
-        if _KEEPS_INERTIA.search(text):
-            return None
+        keeps_inertia = keeps_inertia or bool(_KEEPS_INERTIA.search(text))
         imported.update(_IMPORT.findall(text))
         named.update(_NAMED.findall(text))
         named.update(word for line in _IMPORT_LINE.findall(text) for word in _WORD.findall(line))
     if _READERS.keys().isdisjoint(name.decode() for name in imported):
         return None
     names = {name.decode() for name in named}
-    return None if names & _OTHER_ENGINES else frozenset(_READERS[n] for n in names & {*_READERS})
+    if names & _OTHER_ENGINES:
+        return None
+    used = names & {*_READERS}
+    return Use(frozenset(_READERS[n] for n in used), bool(used - _WITHOUT_DYNAMICS), keeps_inertia)
 
 
-def is_for_other_readers(rule: Rule, finding: Finding, used: frozenset[str] | None) -> bool:
+def is_for_other_readers(rule: Rule, finding: Finding, used: Use | None) -> bool:
     """Tell whether a finding below error has effects on readers that a project does not use.
 
-    Of rules that are not about motion, only remarks about simulators are judged, and settings for
-    Gazebo alone: a file that readers take differently is worth knowing.
+    A project without dynamics uses no inertia. Of rules that are not about motion, only remarks
+    about simulators are judged, and settings for Gazebo alone: a file that readers take differently
+    is worth knowing.
     """
     if used is None or finding.severity is Severity.ERROR:
         return False
-    readers = {reader for key in finding.effects for reader in key.split(", ")}
-    if not readers or not readers.isdisjoint(used):
+    is_of_inertia = rule.of_motion and rule.family == "inertia"
+    if is_of_inertia and not used.moves:
+        return True
+    readers = {
+        reader
+        for key, effect in finding.effects.items()
+        if not _UNAFFECTED.match(effect)
+        for reader in key.split(", ")
+    }
+    if not readers or not readers.isdisjoint(used.readers):
+        return False
+    if is_of_inertia and used.keeps_inertia:
         return False
     if rule.of_motion or readers <= set(GAZEBO):
         return True

@@ -16,6 +16,7 @@ from ..rules.inertia.massless import has_bare_moved_body
 from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
 from ..rules.mujoco import find_rejected_by_mujoco
 from ..rules.rule import GAZEBO
+from ..source.document import Element
 
 _THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit", "check_urdf")
 """Readers based on urdfdom, which fail where it rejects a robot."""
@@ -53,6 +54,8 @@ class Rejections:
         self._by_reader: dict[str, set[str]] = {}
         if robot is not None:
             self._add_massless(robot)
+            if robot.xml is not None and has_undeclared_prefix(robot.xml):
+                self._by_reader["newton"] = set()  # run with 1.8: its parser is ElementTree
             self._add_meshes(robot)
 
     def _add_massless(self, robot: Robot) -> None:
@@ -126,6 +129,24 @@ class Rejections:
         if effects == finding.effects:
             return finding
         return replace(finding, effects=effects, moot=not effects and not selected)
+
+
+def has_undeclared_prefix(element: Element, declared: frozenset[str] = frozenset()) -> bool:
+    """Tell whether an element or one below it has a name with a prefix that nothing declares.
+
+    Args:
+        element: An element.
+        declared: Prefixes that elements above it declare.
+    """
+    todo = [(element, declared | {"xml", "xmlns"})]
+    for one, known in todo:  # the loop appends to this list
+        prefixes = [name[6:] for name in one.attributes if name.startswith("xmlns:")]
+        inside = known.union(prefixes) if prefixes else known
+        for name in (one.tag, *one.attributes):
+            if ":" in name and name.partition(":")[0] not in inside:
+                return True
+        todo += ((child, inside) for child in one.children)
+    return False
 
 
 def _has_flat_first_object(robot: Robot) -> bool:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from ..model.elements import Robot
 from ..source.description import Description
 from .evidence import GENERATIONS, TARGETS_OF, Evidence, Signs, make_guess
-from .imported_readers import find_imported_readers
+from .imported_readers import find_imported_readers, is_of_planner
 
 _NAMES = {"gz": "new Gazebo", "gazebo-classic": "Gazebo Classic"}
 
@@ -40,8 +40,8 @@ def infer_targets(robot: Robot, description: Description) -> Inference:
     ``<gazebo>`` tag counts for gz if the targets include ROS 2, else for Gazebo Classic. Launch
     files and other packages count only for a robot with ``<gazebo>`` tags. The package.xml
     distinguishes ROS 1 from ROS 2; without it, a transmission counts for ROS 1. In a Python project
-    without a package.xml, whose code imports readers, a transmission, a plugin of Gazebo Classic
-    and a ``<gazebo>`` tag without a plugin are leftovers of a generator, and do not count.
+    without a package.xml, whose code imports readers, and in a package of HPP, a transmission, a
+    plugin of Gazebo Classic and a ``<gazebo>`` tag without a plugin are leftovers.
     """
     if robot.format in TARGETS_OF:
         return Inference(frozenset(TARGETS_OF[robot.format]))
@@ -55,10 +55,12 @@ def infer_targets(robot: Robot, description: Description) -> Inference:
     if signs.first_block is not None and not generations:
         guesses = (make_guess("gz" if "ros2" in targets else "gazebo-classic", signs.first_block),)
     leftovers = {"ros1", "gazebo-classic"}
-    if signs.package is None and (guesses or not leftovers.isdisjoint(targets | generations)):
+    is_own = signs.package is None or is_of_planner(description.workspace, signs.package)
+    if is_own and (guesses or not leftovers.isdisjoint(targets | generations)):
         imported = find_imported_readers(description, frozenset())
-        if imported:
-            return Inference((targets | generations) - leftovers, overruled, imported=imported)
+        if imported is not None:
+            left = (targets | generations) - leftovers
+            return Inference(left, overruled, imported=imported.readers)
     return Inference(targets | generations | _get_targets(guesses), overruled, guesses)
 
 

@@ -97,7 +97,7 @@ def list_left_out(outcome: Outcome) -> Iterator[str]:
     if count:
         yield (
             f"{format_count(count, 'finding')} left out, with effects only on readers that the "
-            "Python code of the project does not import; --extend-select pedantic shows "
+            "project does not use; --extend-select pedantic shows "
             f"{'it' if count == 1 else 'them'}"
         )
 

@@ -22,6 +22,10 @@ GOLD = 19300.0
 """Density of gold [kg/m³], above which that of a link is impossible."""
 
 
+ALUMINUM = 2700.0
+"""Density of aluminum [kg/m³], the material of most links. Chosen as the limit for a root."""
+
+
 class _Body(NamedTuple):
     """A link, compared with a solid box of its mass and size."""
 
@@ -56,12 +60,15 @@ def mass_outlier(
     median of the other links and ``max_density_ratio`` times their maximum; the moments of inertia,
     relative to a solid box, are less than ``moment_ratio`` times the median of the others; the
     density that fits the inertia is within a factor ``fit_factor`` of the others; and there are
-    more than ``min_links`` links.
+    more than ``min_links`` links. A root that is no denser than aluminum is not reported: motor and
+    electronics are in it, and thin fingers are light in their bounding box.
     """
     for link, denser, fitting in find_outliers(
         robot, density_ratio, max_density_ratio, moment_ratio, fit_factor, min_links
     ):
         mass = link.inertial.find_child_xml("mass") if link.inertial is not None else None
+        if _is_solid_root(robot, link):
+            continue
         yield Problem(
             link,
             f"mass of link '{link.name}' ({link.mass:g} kg) is {denser:.2g} times too large by "
@@ -69,6 +76,16 @@ def mass_outlier(
             data={"mass": link.mass, "fitting": fitting},
             at=mass.locate_attribute("value") if mass is not None else None,
         )
+
+
+def _is_solid_root(robot: Robot, link: Link) -> bool:
+    """Tell whether a link is part of the root body, and no denser than aluminum."""
+    reach = get_extents(robot)
+    joints = [robot.tree.get_parent_joint(one.name) for one, _ in reach.get_attached(link)]
+    box = reach.get_link_box(link)
+    if box is None or not any(joint is None or joint.parent == "world" for joint in joints):
+        return False
+    return link.mass <= ALUMINUM * math.prod(box.size)
 
 
 class Outlier(NamedTuple):

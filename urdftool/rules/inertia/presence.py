@@ -164,7 +164,7 @@ def missing_inertial(
         if kept is None:
             case = "not one tree"
         else:
-            case = "part" if link.name in heavy else "" if kept else "root"
+            case = "part" if tops.get(link.name, link).name in kept else "" if kept else "root"
         yield Problem(
             link,
             f"link '{link.name}' has no <inertial>{so}",

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from ...diagnostic import Severity
 from ...model.actuation import find_actuated_joints, find_measured_joints, is_passive
 from ...model.elements import Joint, Limit, Robot
 from ...model.read import number
@@ -314,7 +315,8 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
     """The damping or friction of a joint is negative.
 
     A negative value adds energy to the joint, so a small motion grows until the simulation
-    diverges. For a fixed joint the finding is an info, because no reader uses the value.
+    diverges. For a fixed joint the finding is an info, because no reader uses the value. In SDF and
+    MJCF it is a warning: no reader rejects it there.
     """
     for joint in robot.joints:
         dynamics = joint.dynamics
@@ -327,9 +329,15 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
                     joint,
                     f"{name} of joint '{joint.name}' is {value:g}; write {-value:g}",
                     at=dynamics.locate_attribute(name),
-                    severity=INFO if joint.is_fixed else None,
+                    severity=_choose_severity(robot, joint),
                     data={name: value},
                 )
+
+
+def _choose_severity(robot: Robot, joint: Joint) -> Severity | None:
+    if joint.is_fixed:
+        return INFO
+    return None if robot.format == "urdf" else WARNING
 
 
 @negative_limit.fix(UNSAFE)

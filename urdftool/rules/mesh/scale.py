@@ -8,6 +8,8 @@ from pathlib import Path
 
 from ...diagnostic import FileRewrite
 from ...geometry.stl_header import HEADER_BYTES, TRIANGLE_BYTES, read_stl_header
+from ...model.attached import is_fixed_to_world
+from ...model.bounds import compute_bounds
 from ...model.elements import Collision, Mesh, Robot
 from ...model.read import parse_numbers
 from ...source.description import Description
@@ -106,13 +108,15 @@ def mesh_in_millimeters(
     STL files have no unit, and CAD programs often export millimeters, but readers take meters.
     Among thousands of meshes of real robots, none was between 2 m and 100 m long. Add
     ``scale="0.001 0.001 0.001"``. A scene without a moving joint may be as large as a building: of
-    such, only STL files above 100 m are reported.
+    such, only STL files above 100 m are reported; and so of what is fixed to the world, where a
+    primitive shape is at least half as long: a pitch with its boards.
     """
     seen: set[str] = set()
     for use in get_mesh_uses(robot, description):
         length = _compute_largest(use) if use.uri not in seen else None
         if length is not None and length > largest:
-            if not robot.moving_joints and not _is_larger_than_scene(use, length):
+            is_scene = not robot.moving_joints or _is_part_of_scene(robot, use, length)
+            if is_scene and not _is_larger_than_scene(use, length):
                 continue
             seen.add(use.uri)
             yield _report_large_mesh(use, length, largest)
@@ -135,6 +139,19 @@ def report_every_mesh_in_millimeters(robot: Robot) -> Iterator[Problem]:
 
 _SCENE = 100.0
 """Largest length [m] of a scene; STL scenes of hpp-environments have up to 27 m."""
+
+
+def _is_part_of_scene(robot: Robot, use: MeshUse, length: float) -> bool:
+    """Tell whether a mesh is fixed to the world, as a primitive of half its length."""
+    if not is_fixed_to_world(robot, use.link):
+        return False
+    boxes = [
+        compute_bounds(shape)
+        for link, shape in robot.shapes
+        if not isinstance(shape.geometry, Mesh) and is_fixed_to_world(robot, link)
+    ]
+    known = [box for box in boxes if box is not None]
+    return any(max(box.size) * 2 >= length for box in known)
 
 
 def _is_larger_than_scene(use: MeshUse, length: float) -> bool:

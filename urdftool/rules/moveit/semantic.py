@@ -48,8 +48,27 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
         files = [file for file in files if file.name.split(".")[0] not in others]
     for file in named or files:
         document = _parse(file, workspace)
-        if document is not None and (named or document.root.get("name") == robot.name):
+        if document is None or not (named or document.root.get("name") == robot.name):
+            continue
+        if named or not _is_of_another(document, robot, path, workspace):
             yield document
+
+
+def _is_of_another(document: Document, robot: Robot, path: Path, workspace: Workspace) -> bool:
+    """Tell whether a URDF of the same name next to a description has all links of an SRDF."""
+    names = {
+        element.get(attribute) or ""
+        for element, attribute, _ in find_references(document.root, "link")
+    }
+    if names <= robot.link.keys():
+        return False
+    for file in workspace.list_matches(path.parent, "*.urdf"):
+        other = None if file.name == path.name else _parse(file, workspace)
+        if other is not None and other.root.get("name") == robot.name:
+            links = {link.get("name") or "" for link in other.root.list_children("link")}
+            if names <= links:
+                return True
+    return False
 
 
 def get_documents_of_folder(robot: Robot, description: Description) -> list[Document]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...model.elements import Joint, Link, Material, Robot
+from ...model.elements import Collision, Joint, Link, Material, Robot
 from ..fix import FixContext, Proposal, append_number
+from ..mujoco import keeps_visuals
 from ..renaming import get_part, rename_material, rename_part
 from ..rule import ANY_FORMAT, ERROR, INFO, ROS, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_unexpanded
@@ -222,27 +223,35 @@ def confusable_names(robot: Robot) -> Iterator[Problem]:
 @rule(
     WARNING,
     effects={
-        "mujoco": "warns, and drops the second name",
+        "mujoco (kept shape)": "warns, and drops the second name",
         "drake": "warns, and renames it",
     },
+    pedantic="visuals that MuJoCo discards",
 )
 def duplicate_geometry_name(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """Two visuals or two collisions of a link have the same name.
 
     MuJoCo drops the second name, so a contact pair by that name has only one of them. MuJoCo
-    requires unique names in the whole robot.
+    requires unique names in the whole robot. It discards visuals of a URDF, unless ``<compiler>``
+    keeps them.
     """
     seen: set[tuple[str, str, str]] = set()
+    keeps = keeps_visuals(robot)
     for link, shape in robot.shapes:
         if not shape.name or is_unexpanded(shape.name):
             continue
-        key = ("" if "mujoco" in targets else link.name, shape.element.tag, shape.name)
+        is_kept = keeps or isinstance(shape, Collision)
+        in_robot = is_kept and "mujoco" in targets
+        key = ("" if in_robot else link.name, shape.element.tag, shape.name)
         if key in seen:
             yield Problem(
                 link,
                 f"{shape.element.tag} name '{shape.name}' is used twice, again in link "
                 f"'{link.name}'; write a unique name, or none",
                 at=shape.locate_attribute("name"),
+                severity=None if is_kept else INFO,
+                pedantic=not is_kept,
+                effects=("mujoco (kept shape)", "drake") if is_kept else ("drake",),
             )
         seen.add(key)
 

@@ -168,13 +168,21 @@ def conflicting_material(robot: Robot) -> Iterator[Problem]:
                 continue
             seen.add((material_.name, look))
             case = "visual" if material_.name in at_top else "visuals"
+            effects = [f"urdfdom ({case})", "drake", f"pybullet ({case})"]
+            what, there = "color", "that"
+            if material_.color is None or other.color is None:
+                # PyBullet takes the color of the other
+                what = "texture" if material_.color is None else "color"
+                there = "the color" if other.color is not None else "the texture"
+                effects = ["urdfdom (visual)", "drake"] if case == "visual" else ["drake"]
+            where = f"line {other.place.line}{_describe_file(other, material_)}"
             yield Problem(
                 link,
-                f"color of material '{material_.name}' differs from that in line "
-                f"{other.place.line}{_describe_file(other, material_)}; write a unique name",
+                f"{what} of material '{material_.name}' differs from {there} in {where}; write a "
+                "unique name",
                 at=material_.locate_attribute("name"),
                 severity=WARNING,
-                effects=(f"urdfdom ({case})", "drake", f"pybullet ({case})"),
+                effects=effects,
             )
 
 

@@ -184,8 +184,10 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     elements in a URDF are ignored too. An element that is not similar to any of URDF may be for a
     different program; it is an info, and so is a misspelled ``<origin>`` of zeros. A
     ``<material>`` in a ``<collision>`` is not reported: a collision has no color, and nothing is
-    lost.
+    lost. ``<collision_checking>`` is an extension of pinocchio; it is reported if it names a shape
+    that is not the name of a ``<collision>`` of the link.
     """
+    yield from _report_unnamed_shapes(robot)
     unknown = get_census(robot).unknown
     in_xacro = bool(unknown) and description.expansion is not None
     of_xacro = _XACRO | get_macro_names(description) if in_xacro else frozenset()
@@ -229,6 +231,23 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         )
 
 
+def _report_unnamed_shapes(robot: Robot) -> Iterator[Problem]:
+    """Report shapes that ``<collision_checking>`` of pinocchio (run with 4.1) does not find."""
+    for link in robot.links:
+        names = {collision.name for collision in link.collisions}
+        for element in link.element.list_children("collision_checking"):
+            for child in element.children:
+                name = child.get("name")
+                if child.tag in ("capsule", "convex") and name and name not in names:
+                    yield Problem(
+                        child,
+                        f"<{child.tag}> names '{name}', but no <collision> of link '{link.name}' "
+                        f'has that name, so pinocchio ignores it; write <collision name="{name}">',
+                        effects=(),
+                        alike=child.tag,
+                    )
+
+
 def _moves_nothing(element: Element) -> bool:
     """Tell whether an ``<origin>`` does not move anything, as exporters write one into links."""
     words = f"{element.get('xyz') or ''} {element.get('rpy') or ''}".split()
@@ -255,7 +274,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     """Write the element with the most similar name, or the URDF form of an SDF element."""
     element = problem.element
     parent = element.parent
-    if parent is None:
+    if parent is None or parent.tag not in VOCABULARY:
         return None
     proposal = propose_urdf_spelling(element, parent)
     if proposal is not None:

@@ -102,7 +102,12 @@ DIALECTS: dict[str, frozenset[str]] = {
             "reduced_deformable",
         )
     ),
-    "link": frozenset(("contact", "audio_source", "self_collision_checking", "inertia_scaling")),
+    "link": frozenset(
+        (
+            *("contact", "audio_source", "self_collision_checking", "inertia_scaling"),
+            "collision_checking",  # of pinocchio: names shapes that are capsules, or convex
+        )
+    ),
     "visual": frozenset(("meta",)),
     "collision": frozenset(("verbose", "contact_coefficients", "sdf")),
     "material": frozenset(("specular",)),
