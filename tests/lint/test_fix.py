@@ -70,6 +70,17 @@ def test_diff_writes_nothing_and_exits_1_if_it_would(write, urdftool):
     assert urdftool("lint", path, "--diff", *ONLY).code == 0
 
 
+def test_diff_of_a_file_that_cannot_be_read_is_not_nothing(write, urdftool):
+    missing = urdftool("lint", "missing.urdf", "--diff")
+    assert (missing.code, missing.out) == (2, "")
+    assert "missing.urdf: no such file" in missing.err
+    path = write("r.urdf", LONG)
+    both = urdftool("lint", path, write("half.urdf", "<robot name='half'>"), "--diff", *ONLY)
+    assert both.code == 2
+    assert "half.urdf: not checked: " in both.err
+    assert '+    <axis xyz="0 0 1"/>' in both.out
+
+
 def test_unsafe_fixes_are_applied_only_when_asked_for(write, urdftool):
     text = ROBOT.replace("continuous", "revolute").format(axis="0 0 1", dynamics="")
     path = write("r.urdf", text)

@@ -204,13 +204,19 @@ def _report_files(console: Console, done: FixResult, files: Sequence[str]) -> No
 
 
 def _show(console: Console, done: FixResult, output: OutputOptions) -> int:
-    """Print the fixes as a unified diff; return 1 if there are any."""
+    """Print the fixes as a unified diff; return 1 if there are any, 2 if a file was not checked."""
     from ..output import write_result
     from ..report.file_diff import format_file_diff
+    from .lint_report import report_errors
 
     changed = [path for path, data in done.after.items() if data != done.before[path]]
     text = "".join(format_file_diff(path, done.before[path], done.after[path]) for path in changed)
     inputs = [path for path in done.after if os.path.exists(path)]
     write_result(text, output.output_file, inputs=inputs)
-    _report_count(console, "Would fix", done)
-    return int(bool(changed) and not output.exit_zero)
+    broken = report_errors(console, done.reports)
+    for report in done.reports:
+        if report.not_checked and report.error is None:
+            console.print_message(f"{report.path}: not checked: {report.not_checked}")
+    if done.made or not broken:
+        _report_count(console, "Would fix", done)
+    return broken or int(bool(changed) and not output.exit_zero)

@@ -113,7 +113,7 @@ def report(
     _report_unread(console, outcome.reports)
     _report_unknown_arguments(console, outcome.reports, output.arguments)
     _report_skipped(console, outcome.reports, output.paths)
-    broken = _report_errors(console, outcome.reports)
+    broken = report_errors(console, outcome.reports)
     if any(report.checked or report.stopped or report.unexpanded for report in outcome.reports):
         for line in list_rejections(outcome) if style == "full" else ():
             console.print_note(line)
@@ -266,7 +266,7 @@ def _report_skipped(console: Console, reports: Iterable[Report], named: Sequence
         console.print_note(f"{shown}: skipped, {why}", level=level)
 
 
-def _report_errors(console: Console, reports: Iterable[Report]) -> int:
+def report_errors(console: Console, reports: Iterable[Report]) -> int:
     """Print errors of files and of rules, and return their exit code; 0 without errors."""
     from .. import __version__
     from ..cli import REPORT_BUGS
