@@ -39,6 +39,7 @@ def list_undeclared(path: Path, form: str, folder: Path) -> list[str]:
     (main, *_) = sorted((folder / "made").glob(MAIN[form]))
     found = compare_robots(robot, api.load(main)).differences
     parts = {loss.name for loss in written.losses}
+    parts |= {name for loss in written.losses for name in loss.data.get("names", ())}
     return [
         f"{d.row}: {d.title} {d.values} {d.note}"
         for d in found

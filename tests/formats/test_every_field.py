@@ -17,6 +17,7 @@ from urdftool.model.settings import (
     ALL_OF_JOINTS,
     ALL_OF_LINKS,
     ALL_SURFACE,
+    LOST_SETTINGS,
     OF_JOINTS,
     OF_LINKS,
     OF_ROBOT,
@@ -156,13 +157,9 @@ def is_same(one, other):
     return one == other if isinstance(one, bool | str) else one == pytest.approx(other)
 
 
-def is_named(row, messages):
-    """Tell whether a loss names a setting, in the words of the model or of a format."""
-    words = {row.name.replace("_", " "), *row.tags, row.opposite, row.path.rpartition("/")[2]}
-    words |= {"spring of joint"} if row.name.startswith("spring") else set()
-    words |= {row.path.partition("/")[0]} if row.path.count("/") == 1 else set()
-    words |= {f"<{row.path.partition('/')[0]}>"}
-    return any(word in message for word in words - {""} for message in messages)
+def is_named(row, losses):
+    """Tell whether the data of a loss names a setting."""
+    return any(row.name in loss.data.get(LOST_SETTINGS, ()) for loss in losses)
 
 
 @pytest.mark.usefixtures("stages_are_read_here")
@@ -180,14 +177,13 @@ def test_each_setting_is_written_or_its_loss_is_named(tmp_path, form, target):
     wanted = {(t, row.name): TABLES[t][1](robot)[row.name].content for t, row in fields}
     written = EXPORTS[target](robot, tmp_path / "out")
     made = api.load(tmp_path / "out" / written.main)
-    messages = [loss.message for loss in written.losses]
     silent = []
     for table, row in fields:
         value = TABLES[table][1](made).get(row.name)
         content = row.default if value is None else value.content
         if is_same(wanted[table, row.name], content) or (target, row.name) in EXPRESSED:
             continue
-        if not is_named(row, messages):
+        if not is_named(row, written.losses):
             silent.append((table, row.name, wanted[table, row.name], content))
     assert silent == []
 

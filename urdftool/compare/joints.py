@@ -190,7 +190,7 @@ def _compare_limits(pair: Pair, match: JointMatch, sign: float, comparison: Comp
 def _find_bounding_part(robot: Robot, joint: Joint) -> Part | None:
     """Return what bounds the effort of a joint: its only actuator with that bound, or its limit."""
     own = [actuator for actuator in robot.joint_actuators if actuator.joint == joint.name]
-    effort = None if joint.limit is None else joint.limit.effort
+    effort = joint.get_magnitude("effort")
     if len(own) != 1 or effort is None:
         return joint.limit
     ranges = (own[0].force_range, 1.0), (own[0].control_range, abs(own[0].gain))

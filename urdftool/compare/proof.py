@@ -20,7 +20,7 @@ from ..model.kinematics import link_poses
 from ..model.mechanism import Base
 from ..model.pose import make_pose
 from ..model.provenance import NOWHERE
-from ..model.settings import is_set
+from ..model.settings import LOST_SETTINGS, is_set
 from ..model.world import WORLD
 from .check import Check
 from .compare import compare_robots
@@ -69,7 +69,7 @@ class Loss(Protocol):
 
 
 class Excuse(NamedTuple):
-    """Differences that losses explain.
+    """Differences that losses explain: of the settings that the data of a loss names, or of all.
 
     Attributes:
         rows: Names of the rows.
@@ -249,8 +249,8 @@ def make_checks(source: Robot, comparison: Comparison, claims: Claims) -> list[C
             continue
         names = _list_names(source, difference, back)
         known = difference.is_convention or any(
-            excuse.covers(difference) and (parts is None or not parts.isdisjoint(names))
-            for excuse, parts in explained
+            excuse.covers(difference) and _is_explained(difference, names, losses)
+            for excuse, losses in explained
         )
         if difference.row in GLOBAL_ROWS:
             known = known or any(checks[row].announced for row in _MOTION & checks.keys())
@@ -304,16 +304,33 @@ def _list_names(source: Robot, difference: Difference, back: Mapping[str, str]) 
     return {name, *_list_body(source, name)}
 
 
-def _find_explained(source: Robot, excuse: Excuse, claims: Claims) -> frozenset[str] | None:
-    """Return the names of the parts whose difference is explained; None for all."""
-    names: set[str] = set()
+_Explained = dict[frozenset[str], set[str] | None]
+"""Names of the parts that losses of an excuse explain, None for all, by the words of the settings
+that their data names; no word for all that differs."""
+
+
+def _find_explained(source: Robot, excuse: Excuse, claims: Claims) -> _Explained:
+    """Return what the losses of an excuse explain."""
+    found: _Explained = {}
     for loss in claims.losses:
         if loss.code in excuse.codes and loss.severity >= excuse.least:
+            settings = loss.data.get(LOST_SETTINGS, ())
+            words = frozenset(name.replace("_", " ") for name in settings)
+            parts = found.setdefault(words, set())
             if excuse.extent == "robot":
-                return None
-            names |= {loss.name, *(loss.name + end for end in excuse.ends)}
-            names |= set(_list_extent(source, excuse.extent, loss.name))
-    return frozenset(names)
+                found[words] = None
+            elif parts is not None:
+                parts |= {loss.name, *(loss.name + end for end in excuse.ends)}
+                parts |= set(_list_extent(source, excuse.extent, loss.name))
+    return found
+
+
+def _is_explained(difference: Difference, names: set[str], explained: _Explained) -> bool:
+    """Tell whether losses are about a difference of the parts with some names."""
+    return any(
+        (not words or difference.what in words) and (parts is None or not parts.isdisjoint(names))
+        for words, parts in explained.items()
+    )
 
 
 def _list_extent(source: Robot, extent: Extent, name: str) -> Iterator[str]:

@@ -16,7 +16,7 @@ from .plugins import read_plugin
 from .pose import IDENTITY, Pose, compute_norm, get_origin_at, rotate
 from .sdf_schema import find_requirement, walk_values
 from .sensors import read_body_sensor, read_sensor, read_sensor_pose
-from .settings import BAD_ELEMENT, RESISTANCE_OF_URDF, Rejected, is_false
+from .settings import BAD_ELEMENT, RESISTANCE_OF_URDF, Rejected, is_false, is_setting
 from .world import WORLD
 
 if TYPE_CHECKING:
@@ -106,11 +106,22 @@ def add_plugin(
         robot.mounted_sensors.append(sensor)
 
 
-def list_elements(robot: Robot) -> Iterator[tuple[GazeboExtension, Element]]:
-    """Yield each element in ``<gazebo>`` with its block, to report what a format lacks."""
+_PARTS = frozenset(
+    ("sensor", "plugin", "light", "joint", "material", "visual", "collision", "pose", "mu",
+     "canonicalBody")
+)  # fmt: skip
+"""Elements of blocks that are parts of a robot, or decide nothing of what a format lacks."""
+
+
+def list_unread_elements(robot: Robot) -> Iterator[tuple[GazeboExtension, Element]]:
+    """Yield each element in ``<gazebo>`` that is neither a setting nor such a part, with its block.
+
+    A format that does not copy blocks reports them.
+    """
     for block in robot.gazebo:
         for element in block.element.children:
-            yield block, element
+            if element.tag not in _PARTS and not is_setting(element.tag):
+                yield block, element
 
 
 _LIGHTS = ("point", "directional", "spot")

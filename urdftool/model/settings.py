@@ -173,6 +173,9 @@ OF_JOINTS = add_kinds("joint", (
 ))  # fmt: skip
 """Settings of a joint; the last two keep a fixed joint, and SDF does not have them."""
 
+SPRING = ("spring_stiffness", "spring_reference")
+"""Settings of the spring of a joint."""
+
 RESISTANCE = add_kinds("joint", (
     Setting("damping", "N·m·s/rad or N·s/m", "axis/dynamics/damping", 0.0, mjcf="joint damping",
             usd="newton:damping", physx=("physxJointAxis:*:viscousFrictionCoefficient",)),
@@ -294,6 +297,9 @@ class Value(Part):
 Settings = dict[str, Value]
 """Values by the names of their rows."""
 
+
+LOST_SETTINGS = "settings"
+"""Entry of the data of a loss with the names of the settings that are lost."""
 
 BAD_KEYWORD, OUT_OF_RANGE = "bad-extension-number", "setting-out-of-range"
 BAD_ELEMENT = "invalid-sdf-value"
@@ -421,6 +427,12 @@ def is_set(settings: Mapping[str, Value], name: str, default: bool = False) -> b
 def is_opposite(tag: str) -> bool:
     """Tell whether a tag in ``<gazebo>`` sets a flag to its opposite."""
     return tag in _OPPOSITES
+
+
+def is_setting(tag: str) -> bool:
+    """Tell whether an element in ``<gazebo>`` sets something, by its tag or as one of SDF."""
+    rows = (*SURFACE, *OF_LINKS, *OF_JOINTS, *OF_ROBOT)
+    return any(tag in (*row.tags, row.opposite, row.path.partition("/")[0]) for row in rows if tag)
 
 
 def list_rows(tag: str) -> list[Setting]:

@@ -282,7 +282,6 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
     lower, upper = get_limits(joint)
     if lower > upper:
         lower, upper = -math.inf, math.inf
-    effort = joint.limit.effort if joint.limit is not None else None
     mimic = joint.mimic
     stiffness, spring_rest = joint.spring or (0.0, 0.0)
     return RigidBodyJoint(
@@ -291,7 +290,7 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
         (x, y, z),
         lower,
         upper,
-        effort if effort is not None and effort > 0 else None,
+        joint.get_magnitude("effort") or None,
         joint.get_resistance("damping"),
         joint.get_resistance("friction"),
         mimic.joint if mimic is not None and mimic.joint in find_movable_joints(robot) else None,

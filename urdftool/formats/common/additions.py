@@ -63,15 +63,11 @@ def _list_added_stops(source: Robot, planned: Robot) -> Iterator[str]:
 
 
 def _list_added_efforts(source: Robot, planned: Robot) -> Iterator[str]:
-    known = {
-        joint.name for joint in source.joints if joint.limit and joint.limit.effort is not None
-    }
+    known = {joint.name for joint in source.joints if joint.get_magnitude("effort") is not None}
     added = [
         joint.name
         for joint in planned.joints
-        if joint.name in source.joint.keys() - known
-        and joint.limit is not None
-        and joint.limit.effort is not None
+        if joint.name in source.joint.keys() - known and joint.get_magnitude("effort") is not None
     ]
     if added:
         yield f"effort limits added: {len(added)} ({_name_some(added)})"

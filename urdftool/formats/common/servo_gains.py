@@ -207,6 +207,7 @@ def report_gains(
             "sag": sag,
             "joint": most if sag > 0 else "",
             "weak": weak,
+            "names": forces,
         },
     )
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 from ...diagnostic import Severity
@@ -11,10 +12,18 @@ from ...model.elements import BALL_TYPES, Link, Material, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
 from ...model.part import Part
 from ...model.read_settings import list_settings
-from ...model.settings import ALL_OF_LINKS, LUMPING_TAGS, Setting, Settings, Value
+from ...model.settings import ALL_OF_LINKS, LOST_SETTINGS, LUMPING_TAGS, SPRING, Setting, Settings
 from ...model.world_settings import describe_setting, list_changed, list_decided
 from ...source.document import Element
+from ...source.location import Place
 from ..written import Written
+
+
+class Reason(NamedTuple):
+    """Why a format does not have a setting, and the severity of its loss."""
+
+    text: str
+    severity: Severity
 
 
 class _Kind(NamedTuple):
@@ -25,12 +34,14 @@ class _Kind(NamedTuple):
         what: Name of the kind, for one part.
         parts: The parts and their names.
         severity: ``INFO`` if the robot moves the same without them.
+        settings: Names of the settings that are lost with a part.
     """
 
     code: str
     what: str
     parts: list[tuple[Part, str]]
     severity: Severity = Severity.WARNING
+    settings: tuple[str, ...] = ()
 
 
 _OF_URDF = ("link", "joint", "material", "gazebo", "transmission", "ros2_control")
@@ -78,37 +89,51 @@ def report_world_settings(robot: Robot, written: Written) -> None:
 
 
 def _report_kinds(kinds: Iterable[_Kind], written: Written) -> None:
-    for code, what, parts, severity in kinds:
+    for code, what, parts, severity, settings in kinds:
+        data = {LOST_SETTINGS: settings} if settings else {}
         for part, name in parts:
             if part.xml is not None and code in _IN_BLOCKS:
                 continue
             message = f"{what} '{name}' is dropped" if name else f"an unnamed {what} is dropped"
-            written.report_loss(code, message, part.place, kind=what, name=name, severity=severity)
+            written.report_loss(
+                code, message, part.place, kind=what, name=name, severity=severity, data=data
+            )
 
 
 def report_unwritten_settings(
     robot: Robot,
     written: Written,
     has_counterpart: Callable[[Setting], object],
-    is_reported: Callable[[Value], bool] = lambda value: False,
+    reasons: Mapping[str, Reason] = MappingProxyType({}),
 ) -> None:
-    """Report settings that a format does not have, unless they are those of SDF without them."""
+    """Report the settings that a format does not have, unless they are those of SDF without them.
+
+    Settings of one element are one loss, whose data names them.
+
+    Args:
+        robot: The source.
+        written: The export, which receives the losses.
+        has_counterpart: Tells whether the format has a setting.
+        reasons: Why the format does not have settings, by the names of their rows.
+    """
     for kind, name, rows, settings in list_settings(robot):
+        usual = Reason("", Severity.WARNING if rows is ALL_OF_LINKS else Severity.INFO)
+        found: dict[tuple[Place, str], list[str]] = {}
         for row in rows:
             value = settings.get(row.name)
-            if value is None or value.content == row.default:
+            if value is None or value.content == row.default or has_counterpart(row):
                 continue
-            if has_counterpart(row) or is_reported(value):
-                continue
-            if not _EXPRESSED_TAGS.isdisjoint(row.tags):
-                continue
+            if _EXPRESSED_TAGS.isdisjoint(row.tags):
+                found.setdefault((value.place, value.tag if value.xml else ""), []).append(row.name)
+        for (place, tag), lost in found.items():
+            reason = reasons.get(lost[0], usual)
+            what = " and ".join(lost).replace("_", " ")
+            what += f" (<{tag}>)" if tag else ""
+            text = f"{what} of {kind} '{name}' {'are' if len(lost) > 1 else 'is'} not written"
+            text += f": {reason.text}" if reason.text else ""
+            data, severity = {LOST_SETTINGS: lost}, reason.severity
             written.report_loss(
-                "setting",
-                f"{row.name.replace('_', ' ')} of {kind} '{name}' is not written",
-                value.place,
-                kind=kind,
-                name=name,
-                severity=Severity.WARNING if rows is ALL_OF_LINKS else Severity.INFO,
+                "setting", text, place, kind=kind, name=name, severity=severity, data=data
             )
 
 
@@ -137,6 +162,7 @@ def _report_appearance(robot: Robot, written: Written) -> None:
         kind="robot",
         name=robot.name,
         severity=Severity.INFO,
+        data={LOST_SETTINGS: list(lost)},
     )
 
 
@@ -213,6 +239,6 @@ def _list_kinds(robot: Robot) -> Iterator[_Kind]:
     balls = [(j.limit, j.name) for j in robot.joints if j.type in BALL_TYPES and j.limit]
     yield _Kind("ball-limit", "limit of ball joint", [*balls])
     rotors = [(j.dynamics, j.name) for j in robot.joints if j.dynamics and j.dynamics.armature]
-    yield _Kind("joint-armature", "armature of joint", [*rotors])
+    yield _Kind("joint-armature", "armature of joint", [*rotors], settings=("armature",))
     springs = [(j.settings["spring_stiffness"], j.name) for j in robot.joints if j.spring]
-    yield _Kind("joint-spring", "spring of joint", [*springs])
+    yield _Kind("joint-spring", "spring of joint", [*springs], settings=SPRING)

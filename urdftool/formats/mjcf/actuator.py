@@ -132,8 +132,7 @@ def _plan_actuator(
         bias = (0.0, -gain, -(damping or 0.0))
         return replace(made, gain=gain, bias=bias, damping_ratio=ratio, control_range=bounds)
     if drive.kind == "velocity":
-        limit = None if joint.limit is None else joint.limit.velocity
-        velocity = abs(drop_unlimited(limit) or 0.0)
+        velocity = drop_unlimited(joint.get_magnitude("velocity")) or 0.0
         gain = settings.kd
         if gain is None:
             chosen = choose_velocity_gain(kind, effort, velocity, load, timestep)

@@ -44,7 +44,7 @@ EXCUSES = (
     Excuse(("limits", "actuators"), frozenset((*LIMITS, *EFFORT))),
     Excuse(("collisions", "visuals", "surface", "colors", "textures"), frozenset(SHAPES)),
     Excuse(("collisions", "surface"), frozenset(("lossy-convex",))),
-    Excuse(("surface",), frozenset(("lossy-friction",)), properties=("second friction",)),
+    Excuse(("surface",), frozenset(("lossy-friction",))),
     Excuse(("colors", "textures"), frozenset(("lossy-material", "lossy-texture"))),
     Excuse(("sensors",), frozenset(("lossy-sensor", "lossy-camera"))),
     Excuse(("loops",), frozenset(LOOPS)),

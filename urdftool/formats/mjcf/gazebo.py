@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...diagnostic import Severity
-from ...model.blocks import list_elements
-from ...model.elements import Collision, GazeboExtension, Link, Robot
+from ...model.blocks import list_unread_elements
+from ...model.elements import Collision, Link, Robot
 from ...model.numbers import format_content, format_numbers_text
-from ...model.settings import SURFACE_OF_MUJOCO, Setting, Settings, Value, get_number, is_set
+from ...model.settings import LOST_SETTINGS, SURFACE_OF_MUJOCO, Setting, Settings, get_number
 from ...source.document import Element
-from ..common.unexpressed import report_unwritten_settings
+from ..common.unexpressed import Reason, report_unwritten_settings
 from ..written import Written
 
 DEFAULT_FRICTION = "1 0.005 0.0001"
@@ -19,40 +19,43 @@ DEFAULT_FRICTION = "1 0.005 0.0001"
 USUAL_FRICTION = float(DEFAULT_FRICTION.split()[0])
 """MuJoCo's sliding friction of a geom."""
 
-# keyword -> why it is not exported, and the severity of the loss
-LOST: dict[str, tuple[str, Severity]] = {
-    "fdir1": ("MuJoCo's geoms have no friction direction", Severity.WARNING),
-    "kp": ("contacts keep MuJoCo's stiffness (solref)", Severity.INFO),
-    "kd": ("contacts keep MuJoCo's damping (solref)", Severity.INFO),
-    "maxVel": ("MuJoCo has no limit of the contact correction velocity", Severity.INFO),
-    "minDepth": ("MuJoCo has no such contact depth", Severity.INFO),
-    "maxContacts": ("MuJoCo limits the number of contacts of the whole model", Severity.INFO),
-    "laserRetro": ("MuJoCo has no laser intensity", Severity.WARNING),
-    "dampingFactor": ("MuJoCo damps joints, not bodies", Severity.WARNING),
-    "selfCollide": ("bodies of a robot collide in MuJoCo unless they are excluded", Severity.INFO),
-    "self_collide": ("bodies of a robot collide in MuJoCo unless they are excluded", Severity.INFO),
-    "implicitSpringDamper": ("MuJoCo always integrates damping implicitly", Severity.INFO),
-    "cfmDamping": ("MuJoCo always integrates damping implicitly", Severity.INFO),
-    "stopCfm": ("limits have a softness of MuJoCo (solreflimit)", Severity.INFO),
-    "stopErp": ("limits have a softness of MuJoCo (solreflimit)", Severity.INFO),
-    "fudgeFactor": ("a parameter of another solver", Severity.INFO),
-    "provideFeedback": ("MuJoCo measures forces with sensors", Severity.INFO),
-    "projector": ("MuJoCo has no projectors", Severity.WARNING),
-    "audio_sink": ("MuJoCo has no sound", Severity.WARNING),
-    "audio_source": ("MuJoCo has no sound", Severity.WARNING),
-    "battery": ("MuJoCo has no batteries", Severity.WARNING),
-    "particle_emitter": ("MuJoCo has no particles", Severity.WARNING),
-    "gripper": ("MuJoCo grasps by contact only", Severity.WARNING),
-    "include": ("other models are not included", Severity.WARNING),
-    "velocity_decay": ("MuJoCo damps joints, not bodies", Severity.WARNING),
-}
+_DAMPS_JOINTS = Reason("MuJoCo damps joints, not bodies", Severity.WARNING)
+_COLLIDES = Reason("bodies of a robot collide in MuJoCo unless they are excluded", Severity.INFO)
+_SOFT_STOPS = Reason("limits have a softness of MuJoCo (solreflimit)", Severity.INFO)
 
-KNOWN = frozenset(
-    ("mu1", "mu2", "mu", "material", "turnGravityOff", "gravity", "sensor", "light", "plugin",
-     "springStiffness", "springReference", "static", "preserveFixedJoint",
-     "disableFixedJointLumping", "canonicalBody", "visual", "collision", "pose", "joint")
-)  # fmt: skip
-"""Keywords that are exported or need no export."""
+MISSING: dict[str, Reason] = {
+    "friction_direction": Reason("MuJoCo's geoms have no friction direction", Severity.WARNING),
+    "contact_stiffness": Reason("contacts keep MuJoCo's stiffness (solref)", Severity.INFO),
+    "contact_damping": Reason("contacts keep MuJoCo's damping (solref)", Severity.INFO),
+    "correction_velocity": Reason(
+        "MuJoCo has no limit of the contact correction velocity", Severity.INFO
+    ),
+    "contact_depth": Reason("MuJoCo has no such contact depth", Severity.INFO),
+    "max_contacts": Reason(
+        "MuJoCo limits the number of contacts of the whole model", Severity.INFO
+    ),
+    "laser_retro": Reason("MuJoCo has no laser intensity", Severity.WARNING),
+    "linear_decay": _DAMPS_JOINTS,
+    "angular_decay": _DAMPS_JOINTS,
+    "self_collide": _COLLIDES,
+    "implicit_spring_damper": Reason("MuJoCo always integrates damping implicitly", Severity.INFO),
+    "stop_cfm": _SOFT_STOPS,
+    "stop_erp": _SOFT_STOPS,
+    "fudge_factor": Reason("a parameter of another solver", Severity.INFO),
+    "provide_feedback": Reason("MuJoCo measures forces with sensors", Severity.INFO),
+}
+"""Why MuJoCo does not have settings, by the names of their rows."""
+
+LOST: dict[str, str] = {
+    "projector": "MuJoCo has no projectors",
+    "audio_sink": "MuJoCo has no sound",
+    "audio_source": "MuJoCo has no sound",
+    "battery": "MuJoCo has no batteries",
+    "particle_emitter": "MuJoCo has no particles",
+    "gripper": "MuJoCo grasps by contact only",
+    "include": "other models are not included",
+}
+"""Why elements of SDF in a block are not exported, by tag."""
 
 
 def get_surface_attributes(collision: Collision) -> dict[str, str]:
@@ -89,51 +92,29 @@ def report_surface_losses(link: Link, written: Written) -> None:
             text = f"friction of '{link.name}' is {one:g} and {two:g} by direction; MuJoCo's geoms "
             at = collision.surface["second_friction"].place
             text += f"have one, {one:g}"
-            written.report_loss("friction", text, at, kind="link", name=link.name)
+            data = {LOST_SETTINGS: ("second_friction",)}
+            written.report_loss("friction", text, at, kind="link", name=link.name, data=data)
         if bounce is not None and bounce.content:
             text = f"restitution {bounce.content:g} of '{link.name}' is not exported: MuJoCo's "
             text += "contacts are damped springs (solref)"
-            written.report_loss("restitution", text, bounce.place, kind="link", name=link.name)
+            data, at = {LOST_SETTINGS: ("restitution",)}, bounce.place
+            written.report_loss("restitution", text, at, kind="link", name=link.name, data=data)
         if collision.surface is link.surface:
             return
 
 
 def _is_written(row: Setting) -> bool:
     """Tell whether an export writes a setting, or reports it itself."""
-    return bool(row.mjcf) or row.name in ("restitution", "self_collide")
-
-
-def _is_reported(value: Value) -> bool:
-    """Tell whether the element of a ``<gazebo>`` block that holds a value is reported itself."""
-    element = value.xml
-    while element is not None and element.parent is not None:
-        if element.parent.tag == "gazebo":
-            return element.tag not in KNOWN
-        element = element.parent
-    return False
-
-
-def _report_self_collision(robot: Robot, written: Written) -> None:
-    """Report the flags of self-collision of a robot that was not read from URDF, once."""
-    owners: list[Robot | Link] = [robot, *robot.links]
-    flags = [one.settings["self_collide"] for one in owners if is_set(one.settings, "self_collide")]
-    if flags:
-        why, severity = LOST["self_collide"]
-        text = f"self collide of robot '{robot.name}' is not written: {why}"
-        written.report_loss(
-            "setting", text, flags[0].place, kind="robot", name=robot.name, severity=severity
-        )
+    return bool(row.mjcf) or row.name == "restitution"
 
 
 def report_gazebo_losses(robot: Robot, written: Written) -> None:
     """Report the settings and extensions that are not exported."""
-    report_unwritten_settings(robot, written, _is_written, _is_reported)
-    if robot.xml is None:
-        _report_self_collision(robot, written)
-    for block, child in list_elements(robot):
+    report_unwritten_settings(robot, written, _is_written, MISSING)
+    for block, element in list_unread_elements(robot):
         reference = block.reference
         if reference is None or reference in robot.link or reference in robot.joint:
-            _report_keyword_loss(block, child, written)
+            _report_element(reference or "", element, written)
     for plugin in robot.plugins:
         written.report_loss(
             "plugin",
@@ -145,17 +126,14 @@ def report_gazebo_losses(robot: Robot, written: Written) -> None:
         )
 
 
-def _report_keyword_loss(block: GazeboExtension, child: Element, written: Written) -> None:
-    about = f" of '{block.reference}'" if block.reference else ""
-    lost = LOST.get(child.tag)
-    if lost is None and child.tag in KNOWN:
-        return
-    why, severity = lost or ("the element is unknown", Severity.INFO)
+def _report_element(reference: str, element: Element, written: Written) -> None:
+    about = f" of '{reference}'" if reference else ""
+    lost = LOST.get(element.tag)
     written.report_loss(
         "gazebo",
-        f"<{child.tag}>{about} is not exported: {why}",
-        child.place,
+        f"<{element.tag}>{about} is not exported: {lost or 'the element is unknown'}",
+        element.place,
         kind="gazebo",
-        name=block.reference or "",
-        severity=severity,
+        name=reference,
+        severity=Severity.WARNING if lost else Severity.INFO,
     )

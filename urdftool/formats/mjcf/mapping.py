@@ -9,7 +9,8 @@ from collections.abc import Iterable
 
 from ...model.sensors import KINDS as SENSORS
 from ...model.sensors import SensorKind
-from .gazebo import LOST
+from ...model.settings import OF_JOINTS, OF_LINKS, SURFACE, Setting
+from .gazebo import LOST, MISSING
 from .loops import KINDS as CLOSERS
 from .structure import KINDS
 
@@ -192,13 +193,20 @@ def format_markdown() -> str:
     sensors.append(("any other sensor", LOST_MARK, "reported"))
     parameters = "parameters of sensors: noise, rate, topic, frame, clip"
     sensors.append((parameters, LOST_MARK, "`lossy-sensor-parameter`"))
-    lost = [(f"gazebo `{tag}`", LOST_MARK, why) for tag, (why, _) in LOST.items()]
+    lost = [(_format_setting(row), LOST_MARK, MISSING[row.name].text)
+            for row in (*SURFACE, *OF_LINKS, *OF_JOINTS) if row.name in MISSING]  # fmt: skip
+    lost += [(f"gazebo `{tag}`", LOST_MARK, why) for tag, why in LOST.items()]
     parts = (
         ("Robot and links", ROBOT),
         ("Joints", (*joints, *JOINT)),
         ("Extensions", (*EXTENSIONS, *sensors, *lost)),
     )
     return "\n".join(_format_table(title, rows) for title, rows in parts)
+
+
+def _format_setting(row: Setting) -> str:
+    names = _format_names((*row.tags, row.path))
+    return f"{row.name.replace('_', ' ')}: gazebo {names}"
 
 
 def _format_sensors(kind: SensorKind) -> str:

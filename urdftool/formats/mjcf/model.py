@@ -159,10 +159,10 @@ def _build_custom(structure: Structure, name: str) -> etree._Element | None:
     if structure.robot.name and structure.robot.name != name:
         etree.SubElement(section, "text", name="robot_name", data=structure.robot.name)
     for joint in structure.moving:
-        velocity = joint.limit.velocity if joint.limit is not None else None
+        velocity = joint.get_magnitude("velocity")
         if velocity is not None and structure.get_kind(joint) in ("hinge", "slide"):
             own = f"{joint.name}_velocity_limit"
-            etree.SubElement(section, "numeric", name=own, data=number_text(abs(velocity)))
+            etree.SubElement(section, "numeric", name=own, data=number_text(velocity))
     return section if len(section) else None
 
 

@@ -258,9 +258,9 @@ def _list_efforts(robot: Robot) -> dict[str, tuple[float, float]]:
     """Return the bounds of force of the joints that no actuator bounds [N·m or N], by joint."""
     ranged = {one.joint for one in robot.joint_actuators if one.force_range is not None}
     return {
-        joint.name: (-abs(joint.limit.effort), abs(joint.limit.effort))
+        joint.name: (-effort, effort)
         for joint in robot.joints
-        if joint.limit and joint.limit.effort and joint.name not in ranged and joint.has_axis
+        if (effort := joint.get_magnitude("effort")) and joint.name not in ranged and joint.has_axis
     }
 
 

@@ -24,6 +24,7 @@ from ...model.elements import (
 )
 from ...model.materials import UNCOLORED, resolve_material
 from ...model.pose import Pose, get_origin_at, make_pose
+from ...model.settings import LOST_SETTINGS
 from ...model.shapes import get_shape_name
 from ..written import Written
 from .mesh_files import MeshFiles
@@ -65,13 +66,15 @@ def add_shape(
 
 def _report_looks(robot: Robot, written: Written, link: Link, shape: Visual) -> None:
     """Report lights and transparency, which plain URDF does not have; blocks of URDF are copied."""
-    lost = [name.replace("_", " ") for name in shape.appearance if name != "diffuse"]
+    lost = [name for name in shape.appearance if name != "diffuse"]
     if robot.format == "sdf" and shape.material is not None and "ambient" not in lost:
         lost.append("ambient")  # black in SDF where none is written, the color in URDF
     if lost and robot.format != "urdf":
-        text = f"{', '.join(lost)} of a visual of link '{link.name}' are dropped; URDF has a color"
+        names, data = ", ".join(lost).replace("_", " "), {LOST_SETTINGS: lost}
+        text = f"{names} of a visual of link '{link.name}' are dropped; URDF has a color"
+        info, kind = Severity.INFO, "link"
         written.report_loss(
-            "appearance", text, shape.place, kind="link", name=link.name, severity=Severity.INFO
+            "appearance", text, shape.place, kind=kind, name=link.name, severity=info, data=data
         )
 
 

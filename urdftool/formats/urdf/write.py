@@ -13,7 +13,7 @@ from ...model.elements import BALL_TYPES, Collision, Joint, Link, Origin, Robot,
 from ...model.kinematics import UNLIMITED
 from ...model.mechanism import Frame
 from ...model.numbers import number_text
-from ...model.settings import RESISTANCE_OF_URDF
+from ...model.settings import MAGNITUDES, RESISTANCE_OF_URDF
 from ..common.directory import mark
 from ..common.force_fallbacks import (
     FATAL,
@@ -166,9 +166,9 @@ def _add_limit(t: Translation, node: etree._Element, joint: Joint, kind: str) ->
     """Add the limits; URDF requires effort and velocity in each."""
     limit = joint.limit
     needed = kind in ("revolute", "prismatic")
-    effort = None if limit is None else limit.effort
-    velocity = None if limit is None else limit.velocity
-    if not needed and effort is None and velocity is None:
+    magnitudes = {name: getattr(limit, name, None) for name in MAGNITUDES}
+    missing = [name for name, value in magnitudes.items() if value is None]
+    if not needed and len(missing) == len(magnitudes):
         return
     values: dict[str, float] = {}
     if needed:
@@ -176,9 +176,7 @@ def _add_limit(t: Translation, node: etree._Element, joint: Joint, kind: str) ->
         unlimited = limit is None
         values["lower"] = _bound(lower, -UNLIMITED if unlimited else 0.0)
         values["upper"] = _bound(upper, UNLIMITED if unlimited else 0.0)
-    values["effort"] = _bound(effort, UNLIMITED)
-    values["velocity"] = _bound(velocity, UNLIMITED)
-    missing = [n for n, v in (("effort", effort), ("velocity", velocity)) if v is None]
+    values |= {name: _bound(value, UNLIMITED) for name, value in magnitudes.items()}
     if missing:
         text = (
             f"joint '{joint.name}' has no limit of {' and '.join(missing)}; URDF requires one, so "

@@ -32,7 +32,7 @@ EXCUSES = (
     Excuse(("limits",), frozenset(("lossy-velocity",)), properties=("limit of velocity",)),
     Excuse(("collisions", "visuals", "surface", "colors", "textures"), frozenset(SHAPES)),
     Excuse(("collisions",), frozenset(("lossy-convex",))),
-    Excuse(("surface",), frozenset(("lossy-friction",)), properties=("second friction",)),
+    Excuse(("surface",), frozenset(("lossy-friction",))),
     Excuse(("colors", "textures"), frozenset(("lossy-material", "lossy-texture"))),
     Excuse(("loops",), frozenset(("lossy-closure",))),
 )

@@ -21,7 +21,7 @@ from ...model.pose import (
     compute_norm,
     rotation_from_quaternion,
 )
-from ...model.settings import RESISTANCE
+from ...model.settings import LOST_SETTINGS, RESISTANCE, SPRING
 from ..common.missing_bounds import explain_missing_bounds
 from ..written import Written
 from .bodies import Bodies
@@ -249,7 +249,7 @@ def report_unwritten_spring(joint: Joint, written: Written) -> None:
             joint.settings["spring_stiffness"].place,
             kind="joint",
             name=joint.name,
-            severity=Severity.WARNING,
+            data={LOST_SETTINGS: SPRING},
         )
 
 

@@ -286,7 +286,7 @@ def read_actuator(
     if kind and kind.Get() == UsdPhysics.Tokens.acceleration:
         text = "drives of accelerations are read as drives of forces, as Newton does"
         context.report_loss("drive-type", text, prim)
-    effort = joint.limit.effort if joint.limit is not None else None
+    effort = joint.get_magnitude("effort")
     return JointActuator(
         context.get_written(prim, f"drive:{units.name}:physics:stiffness"),
         joint.name,

@@ -8,7 +8,7 @@ from pxr import Sdf, Usd, UsdPhysics, UsdShade
 
 from ...diagnostic import Severity
 from ...model.elements import Collision, Link
-from ...model.settings import get_number
+from ...model.settings import LOST_SETTINGS, get_number
 from ..written import Written
 from .links import LinkWriter
 from .stage import PHYSICS
@@ -40,6 +40,7 @@ class SurfaceWriter:
                 kind="link",
                 name=link.name,
                 severity=Severity.INFO,
+                data={LOST_SETTINGS: ("second_friction",)},
             )
         return UsdShade.Material.Get(self.links.builder.stage, self._get_path(sliding, bounce))
 

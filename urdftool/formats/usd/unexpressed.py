@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.part import Part
-from ...model.settings import Setting
+from ...model.settings import SPRING, Setting
 from ..common.unexpressed import (
     report_looks,
     report_unexpressed,
@@ -46,8 +46,7 @@ def report_losses(robot: Robot, written: Written) -> None:
 
 def _is_written(row: Setting) -> bool:
     """Tell whether an export writes a setting, or reports it itself."""
-    reported = ("spring_stiffness", "spring_reference", "self_collide")
-    return bool(row.usd) or row.name in reported
+    return bool(row.usd) or row.name in (*SPRING, "self_collide")
 
 
 def _list_parts(robot: Robot) -> Iterator[tuple[str, str, Part, str]]:

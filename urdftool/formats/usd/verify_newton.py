@@ -170,13 +170,13 @@ def _get_values(
     source: Source, joint: Joint, read: Mapping[str, float]
 ) -> dict[str, tuple[float, float]]:
     lower, upper = get_limits(joint)
-    velocity = joint.limit.velocity if joint.limit is not None else None
+    velocity = joint.get_magnitude("velocity")
     kp, kd = get_gains(source.robot, joint)
     return {
         "lower limit": (_bound(lower), _bound(read["limit_lower"])),
         "upper limit": (_bound(upper), _bound(read["limit_upper"])),
         "effort": (get_effort(joint), _bound(read["effort_limit"])),
-        "velocity": (_NO_VELOCITY if velocity is None else abs(velocity), read["velocity_limit"]),
+        "velocity": (_NO_VELOCITY if velocity is None else velocity, read["velocity_limit"]),
         **{
             row.name: (getattr(joint.dynamics, row.name, None) or 0.0, read[row.name])
             for row in RESISTANCE

@@ -436,7 +436,7 @@ def tiny_moving_inertia(
         if not 0 < inertia < most:
             continue
         damping = joint.get_resistance("damping")
-        effort = (joint.limit.effort or 0.0) if joint.limit is not None else 0.0
+        effort = joint.get_magnitude("effort") or 0.0
         lower, upper = get_limits(joint)
         reach = min(upper - lower, math.inf if slides else 2 * math.pi)
         unit, force, way = ("kg", "N", "m") if slides else ("kg·m²", "N·m", "rad")

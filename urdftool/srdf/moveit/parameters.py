@@ -42,7 +42,7 @@ def make_joint_limits(configuration: Configuration) -> Tree:
 
 
 def _make_limits(joint: Joint) -> Tree:
-    written = (joint.limit.velocity if joint.limit is not None else None) or 0.0
+    written = joint.get_magnitude("velocity") or 0.0
     has = 0.0 < written < float("inf")
     velocity = written if has else VELOCITY
     guess = "guess: the description has no velocity limit"
