@@ -104,7 +104,7 @@ BLOCK = (
             {"sdf": "gazebo", "mjcf": "gazebo"},
         ),
         ('<gazebo><plugin name="p" filename="p"><pose>x</pose></plugin></gazebo>', {}),
-        ('<mujoco><option timestep="x"/></mujoco>', {"mjcf": "option"}),
+        ('<mujoco><option timestep="x"/></mujoco>', {"mjcf": "robot"}),
     ],
 )
 def test_a_value_of_an_extension_keeps_a_robot_from_the_formats_that_write_it(block, refused):
@@ -114,7 +114,8 @@ def test_a_value_of_an_extension_keeps_a_robot_from_the_formats_that_write_it(bl
         for name in ("sdf", "mjcf")
     }
     for name, findings in found.items():
-        code = "invalid-sdf-value" if refused.get(name) == "gazebo" else "bad-extension-number"
+        codes = {"gazebo": "invalid-sdf-value", "robot": "bad-mujoco-value"}
+        code = codes.get(refused.get(name), "bad-extension-number")
         expected = [(code, refused[name])] if name in refused else []
         assert findings == expected
 

@@ -27,6 +27,10 @@ ALIKE = (
     ("bad-extension-number", ON_ROBOT.format("<static>perhaps</static>")),
     ("setting-out-of-range", ON_LINK.format("<mu1>-1</mu1>")),
     ("invalid-sdf-value", ON_LINK.format("<gravity>perhaps</gravity>")),
+    ("invalid-sdf-value", ON_LINK.format("<self_collide>yes</self_collide>")),
+    ("bad-mujoco-value", '<mujoco><option timestep="x"/></mujoco>'),
+    ("bad-mujoco-value", '<mujoco><option><flag contact="off"/></option></mujoco>'),
+    ("bad-mujoco-value", '<mujoco><visual><map znear="near"/></visual></mujoco>'),
     ("invalid-sdf-value", ON_LINK.format("<visual><cast_shadows>x</cast_shadows></visual>")),
     (
         "invalid-sdf-value",

@@ -145,7 +145,7 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("not-a-number", _make_conditions(part=("robot",))),
             Requirement("unknown-sensor-type"),
             Requirement("plugin-without-filename", _make_conditions(has_filename=(False,))),
-            Requirement("bad-extension-number", _make_conditions(holder=("keyword",))),
+            Requirement("bad-extension-number"),
             Requirement("invalid-sdf-value", _IN_BLOCK),
         ),
         "export:mjcf": (
@@ -153,7 +153,7 @@ PURPOSES: Mapping[str, tuple[Requirement, ...]] = MappingProxyType(
             Requirement("unsupported-shape", _NOT_IN_DRAKE),
             Requirement("bad-extension-number", _make_conditions(kind=("number", "count"))),
             Requirement("invalid-sdf-value", _make_conditions(is_loop=(True,))),
-            Requirement("bad-extension-number", _make_conditions(holder=("mujoco",))),
+            Requirement("bad-mujoco-value"),
         ),
         "export:usd": (Requirement("empty-geometry"), Requirement("unsupported-shape")),
     }

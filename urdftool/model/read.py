@@ -45,6 +45,7 @@ from .elements import (
     Vector,
     Visual,
 )
+from .mujoco_values import list_rejected
 from .native import list_block_elements
 from .numbers import number as number
 from .numbers import parse_numbers as parse_numbers
@@ -87,6 +88,7 @@ def read_robot(root: Element) -> Robot:
             reader(child)
     robot.world = read_options(root.list_children("mujoco"))
     add_settings(robot)
+    robot.rejected_settings += list_rejected(robot)
     add_blocks(robot)
     add_appearance(robot)
     robot.native = list(list_block_elements(robot))

@@ -51,7 +51,7 @@ class _Reading:
         self, row: Setting, element: Element, *, negated: bool = False, code: str = BAD_ELEMENT
     ) -> None:
         text = get_text(element)
-        content, required = parse(row.kind, text), find_required(row, text)
+        content, required = parse(row.kind, text), self._find_required(row, element, text, code)
         if content is None or required:
             if all(one.provenance is not element for one in self.rejected):
                 code = OUT_OF_RANGE if code == BAD_KEYWORD and content is not None else code
@@ -64,6 +64,15 @@ class _Reading:
         if before is not None and id(before) not in self.weak and before.content != content:
             earlier = (*before.earlier, before)
         self.values[row.name] = Value(element, content, earlier)
+
+    def _find_required(self, row: Setting, element: Element, text: str, code: str) -> str:
+        """Describe what a text has to be: one of SDF, which a block may hold, or one of a tag."""
+        if code != BAD_ELEMENT or not row.path:
+            return find_required(row, text)
+        above = element.parent
+        if above is None or above.tag == "gazebo":
+            return find_required(row, text, element, {"robot": "model"}.get(self.kind, self.kind))
+        return find_required(row, text, element, above.tag)
 
 
 def list_settings(robot: Robot) -> Iterator[tuple[str, str, Sequence[Setting], Settings]]:

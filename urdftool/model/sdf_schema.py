@@ -34,6 +34,18 @@ _WORDS = {
 }
 """Allowed words of elements, by parent tag and tag; libsdformat takes the default for others."""
 
+KINDS = {
+    "double": "number",
+    "float": "number",
+    "int": "count",
+    "unsigned-int": "count",
+    "bool": "flag",
+    "vector3": "vector",
+    "color": "color",
+    "string": "text",
+}
+"""Kinds of the types of SDFormat."""
+
 _LENGTHS = {"vector2d": 2, "vector2i": 2, "vector3": 3, "quaternion": 4}
 _COUNTS = {2: "two", 3: "three", 4: "four", 6: "six", 7: "seven"}
 _FLAGS = frozenset(("true", "false", "1", "0"))
@@ -106,6 +118,19 @@ def describe_bounds(least: float, most: float) -> str:
     return f" from {least:g} to {most:g}"
 
 
+def describe_kind(kind: str) -> str:
+    """Describe the values of a kind."""
+    return {
+        "number": "a finite number",
+        "count": "a whole number",
+        "vector": "three finite numbers",
+        "list": "finite numbers",
+        "color": "three or four finite numbers from 0 to 1",
+        "flag": "true or false",
+        "text": "a text",
+    }[kind]
+
+
 def walk_values(parent: str, element: Element) -> Iterator[tuple[str, Element]]:
     """Yield an element and all below it in document order, each after the tag that holds it.
 
@@ -159,9 +184,9 @@ def _describe(parent: str, name: str) -> _Value:
 def _find_requirement(kind: str, bounds: str, text: str) -> Requirement | None:
     words = text.split()
     if kind == "bool":
-        return None if text.lower() in _FLAGS else Requirement("true or false")
+        return None if text.lower() in _FLAGS else Requirement(describe_kind("flag"))
     if kind == "color":
-        return None if _is_color(text) else Requirement("three or four finite numbers from 0 to 1")
+        return None if _is_color(text) else Requirement(describe_kind("color"))
     if kind in _LENGTHS:
         count = _LENGTHS[kind]
         if parse_numbers(" ".join(words[:count]), count) is None:
@@ -177,7 +202,7 @@ def _find_requirement(kind: str, bounds: str, text: str) -> Requirement | None:
 def _find_requirement_of_number(kind: str, bounds: str, text: str) -> Requirement | None:
     text = {"true": "1", "false": "0"}.get(text.lower(), text)  # as libsdformat does
     is_whole = kind.endswith("int")
-    what = "a whole number" if is_whole else "a finite number"
+    what = describe_kind(KINDS[kind])
     if not (_LEADING_WHOLE if is_whole else _LEADING).match(text):
         return Requirement(what)
     value = number(text)

@@ -267,7 +267,8 @@ class _Reading:
     def put(self, path: str, element: Element, text: str) -> None:
         """Set a value, the first of several; a later one has a number in its name."""
         row = _ROWS.get(path) or get_sensor_row(path)
-        content, required = parse(row.kind, text), find_required(row, text)
+        above = "sensor" if element.parent is None else element.parent.tag
+        content, required = parse(row.kind, text), find_required(row, text, element, above)
         if content is None or required:
             part = "sensor", self.name
             self.rejected.append(Rejected(element, BAD_ELEMENT, *part, element.tag, text, required))

@@ -21,7 +21,14 @@ from typing import NamedTuple
 from ..source.document import Element
 from .numbers import number, parse_numbers
 from .part import Part
-from .sdf_schema import describe_bounds, get_bounds, get_value_type
+from .sdf_schema import (
+    KINDS,
+    describe_bounds,
+    describe_kind,
+    find_requirement,
+    get_bounds,
+    get_value_type,
+)
 
 Content = float | bool | tuple[float, ...] | str
 
@@ -72,19 +79,6 @@ class Setting(NamedTuple):
         return self.mjcf.partition(" ")[2]
 
 
-_KINDS = {
-    "double": "number",
-    "float": "number",
-    "int": "count",
-    "unsigned-int": "count",
-    "bool": "flag",
-    "vector3": "vector",
-    "color": "color",
-    "string": "text",
-}
-"""Kinds of the types of SDFormat."""
-
-
 def add_kinds(holder: str, rows: Iterable[Setting]) -> tuple[Setting, ...]:
     """Return rows with the kinds and bounds that SDF's schema gives their paths.
 
@@ -99,7 +93,7 @@ def _add_kind(holder: str, row: Setting) -> Setting:
     above, _, tag = f"{holder}/{row.path}".rpartition("/")
     parent = above.rpartition("/")[2]
     bounds = get_bounds(parent, tag)
-    return row._replace(kind=_KINDS[get_value_type(parent, tag)], bounds=bounds)
+    return row._replace(kind=KINDS[get_value_type(parent, tag)], bounds=bounds)
 
 
 _ODE = "surface/friction/ode/"
@@ -386,24 +380,20 @@ def parse(kind: str, text: str) -> Content | None:
     return value
 
 
-def describe_kind(kind: str) -> str:
-    """Describe the values of a kind."""
-    return {
-        "number": "a finite number",
-        "count": "a whole number",
-        "vector": "three finite numbers",
-        "list": "finite numbers",
-        "color": "three or four finite numbers from 0 to 1",
-        "flag": "true or false",
-        "text": "a text",
-    }[kind]
+def find_required(row: Setting, text: str, element: Element | None = None, above: str = "") -> str:
+    """Describe what a text has to be as the value of a setting; empty if it is valid.
 
-
-def find_required(row: Setting, text: str) -> str:
-    """Describe what a text has to be as the value of a setting; empty if it is valid."""
+    Args:
+        row: The setting.
+        text: The text.
+        element: The element of SDF that has it, of which libsdformat requires what its schema says;
+            None for a tag in ``<gazebo>``, in which it also takes ``yes`` for ``true``.
+        above: Tag of the element of SDF that holds the element.
+    """
+    needed = None if element is None else find_requirement(above, element)
     content = parse(row.kind, text)
-    if content is None:
-        return describe_kind(row.kind)
+    if content is None or needed is not None:
+        return describe_kind(row.kind) if needed is None else needed.text
     least, most = row.bounds
     if isinstance(content, tuple | str) or least <= content <= most:
         return ""

@@ -352,6 +352,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "mujoco-missing-compiler",
             "isaac-empty-root",
         ),
+        "mujoco_element": ("bad-mujoco-value",),
         "usd_importers": (
             "usd-computed-mass",
             "newton-raised-inertia",
@@ -447,6 +448,7 @@ APPLIES_TO: dict[str, tuple[str, ...]] = {
     "control.ros2_control_simulated": ("ros2_control", "plugin"),
     "control.controllers": ("ros2_control", "transmission"),
     "control.parameter_types": ("ros2_control",),
+    "simulation.mujoco_element": ("mujoco",),
     "lint.suppressions": (),
     "lint.analysis": ("mesh", "collision", "joint"),
 }

@@ -197,10 +197,10 @@ def test_mujoco_values_that_are_none(write, inside):
     with pytest.raises(Refused) as caught:
         export(path)
     (finding,) = caught.value.findings
-    assert finding.code == "bad-extension-number"
+    assert finding.code == "bad-mujoco-value"
     assert finding.location.line == 3
     written = export(path, force=True)
-    assert rules(written) == ["bad-extension-number"]
+    assert rules(written) == ["bad-mujoco-value"]
     value = inside.partition('="')[2].partition('"')[0]
     assert f'"{value}"' not in written.files[written.main].decode()
 

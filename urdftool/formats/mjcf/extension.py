@@ -6,11 +6,7 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
-from ...rules.simulation.mujoco_values import (
-    READER_SETTINGS,
-    SECTIONS,
-    describe_required_setting,
-)
+from ...model.mujoco_values import READER_SETTINGS, SECTIONS, describe_required_setting
 from ...source.document import Element
 from ..written import Written
 

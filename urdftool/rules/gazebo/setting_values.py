@@ -9,12 +9,11 @@ from ...model.block_elements import list_part_elements
 from ...model.elements import Joint, Link, Robot
 from ...model.read import number
 from ...model.read_settings import list_settings
-from ...model.sdf_schema import describe_bounds
+from ...model.sdf_schema import describe_bounds, describe_kind
 from ...model.settings import (
     SURFACE,
     UNBOUNDED,
     Setting,
-    describe_kind,
     describe_rejected,
     get_text,
     list_rows,

@@ -8,11 +8,15 @@ from collections.abc import Iterator, Set
 from ...model.block_elements import find_owner
 from ...model.elements import GazeboExtension, Robot
 from ...model.read import number
-from ...model.sdf_schema import find_requirement, find_requirement_of_attribute, walk_values
+from ...model.sdf_schema import (
+    describe_kind,
+    find_requirement,
+    find_requirement_of_attribute,
+    walk_values,
+)
 from ...model.settings import (
     BAD_ELEMENT,
     BAD_KEYWORD,
-    describe_kind,
     describe_rejected,
     get_text,
     is_opposite,
@@ -33,7 +37,6 @@ from ..fix import (
     unsafe,
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
-from ..simulation.mujoco_values import describe_required_setting, find_setting_elements
 from ..unexpanded import is_unexpanded
 from .contact import get_contact_role
 from .keywords import KEYWORDS, NUMBERS
@@ -105,25 +108,12 @@ def bad_extension_number(robot: Robot) -> Iterator[Problem]:
 
 @bad_extension_number.full
 def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
-    """Report each value of a tag that the model rejects, and those of MuJoCo.
-
-    ``Problem.data`` has the ``holder``: a ``keyword`` of a link or joint, with the ``kind`` of its
-    value, or ``mujoco``, an attribute in that element.
-    """
+    """Report each value of a tag that the model rejects, with the ``kind`` of its value."""
     for one in robot.rejected_settings:
         if one.code == BAD_KEYWORD and one.kind in ("link", "joint"):
             part = (robot.link if one.kind == "link" else robot.joint)[one.name]
-            data = {"holder": "keyword", "kind": list_rows(one.tag)[0].kind}
+            data = {"kind": list_rows(one.tag)[0].kind}
             yield Problem(part, one.fact, at=one.element, data=data)
-    for element in find_setting_elements(robot):
-        for attribute, value in element.attributes.items():
-            if required := describe_required_setting(element, attribute):
-                yield Problem(
-                    element,
-                    f'{attribute}="{value}" of <{element.tag}> in <mujoco> is not {required}',
-                    at=element.locate_attribute(attribute),
-                    data={"holder": "mujoco"},
-                )
 
 
 def _describe(robot: Robot, element: Element, required: str) -> str:

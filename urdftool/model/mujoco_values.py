@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.elements import Robot
-from ...model.read import parse_numbers
-from ...model.settings import Setting
-from ...model.world_settings import OF_MUJOCO
-from ...source.document import Element
+from ..source.document import Element
+from .elements import Robot
+from .numbers import parse_numbers
+from .provenance import Written
+from .settings import Rejected, Setting
+from .world_settings import OF_MUJOCO
+
+BAD_VALUE = "bad-mujoco-value"
+"""Rule of ``lint`` that reports a value that MuJoCo does not read."""
 
 READER_SETTINGS = frozenset(
     ("angle", "meshdir", "texturedir", "assetdir", "strippath", "discardvisual", "fusestatic",
@@ -81,19 +85,34 @@ VALUES: dict[str, dict[str, int | tuple[str, ...]]] = {
 }  # fmt: skip
 
 
-def find_setting_elements(robot: Robot) -> Iterator[Element]:
-    """Yield the elements in ``<mujoco>`` that hold settings of the model."""
+def list_rejected(robot: Robot) -> Iterator[Rejected]:
+    """Yield the attributes in ``<mujoco>`` of a URDF that are not what MuJoCo requires there."""
     for extension in robot.element.list_children("mujoco"):
         for part in extension.children:
-            if part.tag == "compiler" or part.tag in SECTIONS:
-                yield from part.walk()
+            for element in part.walk() if part.tag in ("compiler", *SECTIONS) else ():
+                for name, value in element.attributes.items():
+                    if required := describe_required_setting(element, name):
+                        place = Written(element.locate_attribute(name), element)
+                        what = f"{name} of <{element.tag}> in <mujoco>"
+                        owner = "robot", robot.name
+                        yield Rejected(place, BAD_VALUE, *owner, what, value, required)
+
+
+def list_parents(one: Rejected) -> list[str]:
+    """Return the tags of the elements that hold an attribute, up to ``<mujoco>``."""
+    found, element = [], one.xml
+    while element is not None and element.tag != "mujoco":
+        found.append(element.tag)
+        element = element.parent
+    return found
 
 
 def describe_required_setting(element: Element, name: str) -> str:
     """Describe the value that an attribute requires.
 
     Returns:
-        "" if the value is valid, or the attribute is not in ``VALUES``.
+        "" if the value is valid, or the attribute is not in ``VALUES``; also for no number, which
+        MuJoCo reads as the default.
     """
     required = VALUES.get(element.tag, {}).get(name)
     value = element.get(name) or ""
@@ -101,6 +120,8 @@ def describe_required_setting(element: Element, name: str) -> str:
         return ""
     if isinstance(required, tuple):
         return "" if value in required else "one of " + ", ".join(required)
+    if not value.strip():
+        return ""
     if required == WHOLE:
         digits = value.strip().removeprefix("-").removeprefix("+")
         return "" if digits.isascii() and digits.isdigit() else "a whole number"
