@@ -189,3 +189,16 @@ def test_a_cart_that_its_rail_goes_through_cannot_collide_with_it(write, kind, p
     path = write("r.urdf", f'<robot name="r">{"".join(parts)}</robot>')
     rules = ["missing-collision", "odd-link-without-collision"]
     assert sorted(f.name for f in check(path, select=rules)) == sorted(ghosts)
+
+
+@pytest.mark.parametrize(("extra", "fixes"), [("", 1), ('<sphere radius="0"/>', 0)])
+def test_a_visual_without_a_size_is_not_copied(write, extra, fixes):
+    """Readers reject a collision of no size, so the fix would add a defect."""
+    text = HEAD.format(comment="", height=0.2)
+    if extra:
+        visual = f"<visual><geometry>{extra}</geometry></visual>"
+        text = text.replace('name="motor">', f'name="motor">{visual}')
+    (found,) = check(
+        write("r.urdf", text), select=["missing-collision"], targets=["gz"], fixes=True
+    )
+    assert len(found.fixes) == fixes

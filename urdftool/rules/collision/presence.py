@@ -198,6 +198,8 @@ def copy_visuals(problem: Problem, context: FixContext) -> Proposal | None:
     for visual in link.visuals:
         if not isinstance(visual.geometry, Box | Cylinder | Sphere):
             return None
+        if not has_extent(visual.geometry):
+            return None  # a marker of no size, which readers reject as a collision
         change = copy_shape(visual, "collision")
         if change is None:
             return None
