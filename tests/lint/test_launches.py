@@ -23,8 +23,8 @@ PYTHON = {
     ),
     "process_file with mappings": (
         'p = os.path.join(get_package_share_directory("arm"), "urdf", "arm.urdf.xacro")\n'
-        '    xacro.process_file(p, mappings={"a": "b", "c": choose()}).toxml()',
-        [(ARM, {"a": "b"}, ["c"])],
+        '    xacro.process_file(p, mappings={"a": "b c", "c": choose(), "d": ""}).toxml()',
+        [(ARM, {"a": "b c", "d": ""}, ["c"])],
     ),
     "a path with operators": (
         'Command(["xacro ", str(get_package_share_path("arm") / "urdf/arm.urdf.xacro")])',
@@ -46,6 +46,53 @@ PYTHON = {
     "a package that is not found": (
         'Command(["xacro ", FindPackageShare("none"), "/a.xacro"])',
         [(UNKNOWN + "/a.xacro", {}, [])],
+    ),
+    "a document that is parsed": (
+        'p = os.path.join(get_package_share_directory("arm"), "urdf", "arm.xacro.urdf")\n'
+        "    doc = xacro.parse(open(p))\n"
+        '    xacro.process_doc(doc, mappings={"prefix": "l_"})',
+        [
+            ("/ws/arm/urdf/arm.xacro.urdf", {"prefix": "l_"}, []),
+            ("/ws/arm/urdf/arm.xacro.urdf", {}, []),
+        ],
+    ),
+    "a file that is opened": (
+        'p = os.path.join(get_package_share_directory("arm"), "urdf", os.environ["M"] + ".urdf")\n'
+        "    with open(p) as file:\n        text = file.read()",
+        [(f"/ws/arm/urdf/{UNKNOWN}.urdf", {}, [])],
+    ),
+    "choices without a default": (
+        'DeclareLaunchArgument("size", choices=["s", "l"])\n'
+        '    DeclareLaunchArgument("sim", default_value="true", choices=["true", "false"])\n'
+        '    Command(["xacro a.xacro size:=", LaunchConfiguration("size"), " sim:=",'
+        ' LaunchConfiguration("sim")])',
+        [("a.xacro", {"size": size, "sim": "true"}, []) for size in "sl"],
+    ),
+    "more choices than are tried": (
+        'DeclareLaunchArgument("n", choices=["1", "2", "3", "4", "5", "6"])\n'
+        '    DeclareLaunchArgument("m", choices=["1", "2", "3", "4", "5", "6"])\n'
+        '    Command(["xacro a.xacro n:=", LaunchConfiguration("n"), " m:=",'
+        ' LaunchConfiguration("m")])',
+        [("a.xacro", {}, ["n", "m"])],
+    ),
+    "a function that is called with the context": (
+        'kind = DeclareLaunchArgument("kind", choices=["a", "b"])\n'
+        "    OpaqueFunction(function=run, args=[LaunchConfiguration(kind.name), choose()])\n"
+        "def run(context, arm, other):\n"
+        "    arm_name = context.perform_substitution(arm)\n"
+        '    grip = LaunchConfiguration("prefix").perform(context)\n'
+        '    p = os.path.join(get_package_share_directory("arm"), arm_name, arm_name + ".xacro")\n'
+        '    xacro.process_file(p, mappings={"g": grip, "o": other})',
+        [(f"/ws/arm/{kind}/{kind}.xacro", {"g": '"left_"'}, ["o"]) for kind in "ab"],
+    ),
+    "a configuration of MoveIt": (
+        'MoveItConfigsBuilder("arm").robot_description(file_path="config/arm.urdf.xacro",'
+        ' mappings={"a": "b"}).robot_description_semantic(file_path="config/arm.srdf")',
+        [("/ws/arm_moveit_config/config/arm.urdf.xacro", {"a": "b"}, [])],
+    ),
+    "a configuration of MoveIt in a named package": (
+        'MoveItConfigsBuilder("arm", package_name="motion").robot_description("arm.urdf")',
+        [("/ws/motion/arm.urdf", {}, [])],
     ),
     "no description": ('Command(["echo ", "hello"])', []),
 }
@@ -93,6 +140,9 @@ VALUES = {
     ),
     'command="xacro $(dirname)/../arm.xacro"': ("arm/launch/../arm.xacro", {}, []),
     'command="xacro $(env ROBOT).xacro"': (UNKNOWN + ".xacro", {}, []),
+    'command="xacro a.xacro l:=$(optenv LASER false) m:=$(optenv MORE)"': (
+        ("a.xacro", {"l": "false"}, ["m"])
+    ),
 }
 
 
@@ -100,6 +150,12 @@ VALUES = {
 def test_xml(value, expected):
     default = ARM, {}, []
     assert uses("arm/launch/arm.launch", XML.format(value)) == [default, expected]
+
+
+def test_arguments_of_an_included_file_are_not_those_of_this_file():
+    given = '<include file="b.launch"><arg name="limited" value="true"/></include>'
+    text = XML.format('command="xacro a.xacro l:=$(arg limited)"').replace("</launch>", given)
+    assert uses("a.launch", text)[1:] == [("a.xacro", {"l": "false"}, [])]
 
 
 CMAKE = {

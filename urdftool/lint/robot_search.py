@@ -230,9 +230,9 @@ class _Search:
         if robot is None and real in self.found.paths:
             robot = RobotFile(self.found.paths[real], f"expanded by {place}")
             self.found.robots[real] = robot
-        if robot is None or not has_ending(real, ".xacro"):
-            return
         arguments = dict(use.arguments)
+        if robot is None or not (has_ending(real, ".xacro") or arguments):
+            return
         if arguments not in robot.variants:
             robot.variants.append(arguments)
             robot.places.append(place)
