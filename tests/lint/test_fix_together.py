@@ -56,7 +56,7 @@ def test_many_fixes_of_one_file_are_proved_at_once(write, lints):
 def test_a_fix_that_other_fixes_allow_is_tried_again(write, monkeypatch):
     """The fix of the first joint makes the report worse until all others are made."""
 
-    def find_regression(old, new, tried):
+    def find_regression(old, new, tried, others):
         early = len(old.findings) > 1 and any("'j0'" in one.message for one in tried)
         return Wrong("another joint differs") if early else None
 
@@ -105,6 +105,22 @@ def test_what_keeps_several_from_being_read_is_fixed_once(write, urdftool):
     fixed_part = PART.replace("<dynamics/>", "<!-- a - - b -->")
     assert Path("part.xacro").read_text() == XACRO.format(fixed_part)
     assert result.err.startswith("Fixed 2 in 1 file: ")
+
+
+def test_a_fix_that_reveals_findings_in_two_robots_of_one_macro_is_made(write):
+    """The type of the joint shows what its link lacks: no reason to refuse it, in neither robot."""
+    body = """<link name="${name}"><inertial><mass value="-1"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+      <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual></link>"""
+    part = PART.replace('<link name="${name}"/>', body).replace("continuous", "revolut")
+    write("part.xacro", XACRO.format(part))
+    more = '<xacro:part name="b"/>\n<xacro:part name="c"/>\n'
+    paths = [write(f"r{n}.urdf.xacro", XACRO.format(USES + more)) for n in range(2)]
+    options = Options(fixes=True)
+    reports = [check_file(path, options) for path in paths]
+    done = fix_run.apply_fixes(reports, options, unsafe=True)
+    assert {"unknown-joint-type", "missing-collision"} <= set(done.applied)
+    assert b'type="continuous"' in done.after["part.xacro"]
 
 
 def _broken_for(monkeypatch, wrong):

@@ -88,7 +88,7 @@ def print_list(files: Sequence[str], found: Repository) -> None:
         for variant in robot.variants if robot else ():
             lines.append(f"  with {label(variant)}")
         for name, place in robot.computed.items() if robot else ():
-            lines.append(f"  {name}:= is computed in {place}, so its default is used")
+            lines.append(f"  {name}:= is computed in {place}, so it is not passed")
         for other in sorted(found.list_files(real) - {real}):
             lines.append(f"  includes {found.paths.get(other, other)}")
         if found.list_files(real) & found.computes:
@@ -124,6 +124,14 @@ def _print_unknown(found: Repository) -> None:
             click.echo(f"{what}: {shorten_list(places)}", err=True)
 
 
+def _name_computed(path: str, found: Repository) -> str:
+    """Return a path with the arguments that a launch file computes, which the robot may lack."""
+    robot = found.robots.get(os.path.realpath(path))
+    computed = robot.computed.items() if robot else ()
+    words = ", ".join(f"{name}:= is computed in {place}" for name, place in computed)
+    return f"{path} ({words})" if words else path
+
+
 def summarize_robots(found: Repository, options: Options, reports: Collection[Report]) -> str:
     """Return ``checked 3 robots (4 variants), 12 files belong to them, 0 not checked``.
 
@@ -140,7 +148,7 @@ def summarize_robots(found: Repository, options: Options, reports: Collection[Re
         f"checked {format_count(len(checked), 'robot')} ({format_count(variants, 'variant')}), "
         f"{format_count(len(belonging), 'file')} {'belong' if len(belonging) != 1 else 'belongs'} "
         f"to {'it' if len(checked) == 1 else 'them'}, {len(missing)} not checked"
-        + (f": {shorten_list(missing)}" if missing else ""),
+        + (f": {shorten_list([_name_computed(path, found) for path in missing])}" * bool(missing)),
         f"computed paths not followed: {unknown}" if unknown else "",
         describe_links(found.links),
     )

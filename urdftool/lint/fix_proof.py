@@ -51,8 +51,17 @@ def get_subject(finding: Finding) -> tuple[str, str]:
     return finding.kind, finding.name
 
 
-def find_regression(before: Report, after: Report, chosen: Sequence[Finding]) -> Wrong | None:
-    """Return what is worse after the fixes of ``chosen``; None if nothing is."""
+def find_regression(
+    before: Report, after: Report, chosen: Sequence[Finding], others: Sequence[Finding] = ()
+) -> Wrong | None:
+    """Return what is worse after fixes; None if nothing is.
+
+    Args:
+        before: Report without the fixes.
+        after: Report with the fixes.
+        chosen: Fixed findings of the report.
+        others: Findings of other reports that the same step fixes, in files that they share.
+    """
     if after.error is not None and before.error is None:
         return Wrong(f"the file could not be read: {after.error.message}")
     if after.skipped and not before.skipped:
@@ -68,7 +77,7 @@ def find_regression(before: Report, after: Report, chosen: Sequence[Finding]) ->
     still = [finding for finding in chosen if left[get_key(finding)] >= there[get_key(finding)]]
     if still:
         return Wrong("the finding remains", subjects=frozenset(map(get_subject, still)))
-    if stops[0] or any(FIXES[finding.code].reveals for finding in chosen):
+    if stops[0] or any(FIXES[finding.code].reveals for finding in (*chosen, *others)):
         return None
     for level in (Severity.ERROR, Severity.WARNING):
         now, then = _count_by_subject(after, level), _count_by_subject(before, level)

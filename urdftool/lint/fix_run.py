@@ -351,7 +351,9 @@ class _Round:
         for number in dict.fromkeys((*own, *others)):
             old = result.reports[number]
             new = check_file(old.path, replace(self.options, workspace=trial))
-            wrong = find_regression(old, new, [one.finding for one in some if one.number == number])
+            chosen = [one.finding for one in some if one.number == number]
+            shared = [one.finding for one in some if one.number != number]
+            wrong = find_regression(old, new, chosen, shared)
             if wrong:
                 return wrong
             fresh[number] = new

@@ -58,7 +58,7 @@ def _format_arguments(one: ExplainedTargets) -> Iterator[str]:
     for arguments, place in one.arguments:
         yield f"    {label(arguments)}: {place}"
     for name, place in one.computed.items():
-        yield f"    {name}: computed in {place}, so its default is used"
+        yield f"    {name}: computed in {place}, so it is not passed"
 
 
 def format_targets_as_json(explained: Iterable[ExplainedTargets]) -> str:

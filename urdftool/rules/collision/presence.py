@@ -187,8 +187,8 @@ def odd_link_without_collision(robot: Robot) -> Iterator[Problem]:
         )
 
 
-@missing_collision.fix(UNSAFE)
-@odd_link_without_collision.fix(UNSAFE)
+@missing_collision.fix(UNSAFE, reveals=True)
+@odd_link_without_collision.fix(UNSAFE, reveals=True)
 def copy_visuals(problem: Problem, context: FixContext) -> Proposal | None:
     """Copy the visuals, if all are primitives; small links may lack a collision on purpose."""
     link = context.get_link(problem)

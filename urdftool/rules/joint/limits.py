@@ -62,7 +62,7 @@ def _report_missing_limit(joint: Joint) -> Problem:
     )
 
 
-@missing_limit.fix(UNSAFE)
+@missing_limit.fix(UNSAFE, reveals=True)
 def make_continuous(problem: Problem, context: FixContext) -> Proposal | None:
     """Make a revolute joint without limits continuous."""
     joint = context.get_joint(problem)

@@ -227,10 +227,10 @@ def axis_against_others(robot: Robot) -> Iterator[Problem]:
 
 
 def _report_reversed_copies(found: Sides) -> Iterator[Problem]:
-    """Report joints of copied limbs whose axes are opposite, unlike most axes of these limbs."""
+    """Report joints of copied limbs whose axes are opposite, unlike two thirds of these axes."""
     copies = [(one, pair) for pair in found.pairs if (one := found.compare_copies(pair))]
     unlike = [pair for sign, pair in copies if sign < 0]
-    if 2 * len(unlike) < len(copies):
+    if 3 * len(unlike) <= len(copies):
         for left, right in ((pair.left_joint, pair.right_joint) for pair in unlike):
             yield Problem(
                 right,
