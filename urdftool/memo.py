@@ -24,6 +24,13 @@ class Memo:
         except KeyError:
             return cast("T", self._known.setdefault(key, make()))
 
+    def get_for(self, key: Hashable, given: object, make: Callable[[], T]) -> T:
+        """Return the value of a key, computing it where it was not made of equal objects."""
+        known = self._known.get(key)
+        if known is None or known[0] != given:
+            known = self._known[key] = given, make()
+        return cast("T", known[1])
+
     def peek(self, key: Hashable) -> Any:
         """Return the value of a key; None if it was not computed."""
         return self._known.get(key)

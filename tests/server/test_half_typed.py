@@ -220,3 +220,26 @@ def test_messages_between_the_processes():
     data = pack({"a": "é"})
     assert unpack_length(data[:4]) == len(data) - 4
     assert json.loads(data[4:]) == {"a": "é"}
+
+
+def test_findings_of_a_file_that_is_not_edited_follow_the_edits_of_another(tmp_path):
+    xacro = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{}</robot>'
+    macros = tmp_path / "macros.xacro"
+    part = '<link name="x"><colision/></link>'
+    macros.write_text(xacro.format(f'<xacro:macro name="part">{part}</xacro:macro>'))
+    plain = xacro.format('<xacro:include filename="macros.xacro"/><link name="a"/>')
+    path = tmp_path / "robot.urdf.xacro"
+    path.write_text(plain)
+    editor = Editor(path, plain)
+
+    def list_codes():
+        shown = editor.publication.list_diagnostics(make_path(macros))
+        return {one["code"] for one in shown} & {"unreached-typo", "unknown-element"}
+
+    assert list_codes() == {"unreached-typo"}
+    editor.type(plain.replace('name="a"', 'name="b"'))
+    assert list_codes() == {"unreached-typo"}  # as kept with the file
+    editor.type(plain.replace('<link name="a"/>', "<xacro:part/>"))
+    assert list_codes() == {"unknown-element"}
+    editor.type(plain)
+    assert list_codes() == {"unreached-typo"}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Collection, Iterable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 from .. import rules
@@ -40,6 +41,14 @@ _OF_FILES = (
 _IRREGULAR = {"have": "has", "do": "does", "are": "is", "go": "goes"}
 
 
+@cache
+def _read_table() -> dict[str, dict[str, list[str]]]:
+    """Return the readers that reject a file, by rule and key of the effect."""
+    path = Path(rules.__file__).with_name("effect_rejections.json")
+    found: dict[str, dict[str, list[str]]] = json.loads(path.read_text("utf-8"))
+    return found
+
+
 class Rejections:
     """Readers that reject one robot, with the rules that report it.
 
@@ -49,8 +58,7 @@ class Rejections:
 
     def __init__(self, robot: Robot | None) -> None:
         """Read which effects are rejections, as recorded by ``python -m tests.effects``."""
-        path = Path(rules.__file__).with_name("effect_rejections.json")
-        self._table: dict[str, dict[str, list[str]]] = json.loads(path.read_text("utf-8"))
+        self._table = _read_table()
         self._by_reader: dict[str, set[str]] = {}
         if robot is not None:
             self._add_massless(robot)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from ..errors import SourceError, UrdftoolError
-from ..source.document import Element
+from ..source.document import Document, Element
 
 _WORD = re.compile(r"(?!INF|NAN)[A-Z][A-Z0-9_]{2,}|__[A-Z][A-Z0-9_]*__")
 """A word that a program replaces by a number."""
@@ -26,16 +26,16 @@ _NAMES = 3
 """Number of words that a message names. Chosen, no source."""
 
 
-def refuse_template(root: Element) -> None:
+def refuse_template(document: Document) -> None:
     """Check that numbers of a description are not words that a program replaces, such as ``MASS``.
 
     Raises:
         SourceError: At least ``FEWEST`` words in capitals are in place of numbers.
     """
     words: dict[str, Element] = {}
-    for element in root.walk():
+    for element in document.elements:
         for name, text in element.attributes.items():
-            if name in _NUMBERS and _WORD.fullmatch(text.strip()):
+            if name in _NUMBERS and text.isupper() and _WORD.fullmatch(text.strip()):
                 words.setdefault(text.strip(), element)
     if len(words) >= FEWEST:
         at = next(iter(words.values())).place

@@ -155,7 +155,7 @@ def _check_variant(
                 return report
             refuse_srdf(description)
             try:
-                refuse_template(root)
+                refuse_template(description.document)
             except SourceError as error:
                 return _stop(report, error, "not-a-number")
     except UrdftoolError as error:
@@ -338,7 +338,7 @@ def _check_description(
         findings, report.ignored = suppress(findings, suppressions)
         suppress(hidden, suppressions)  # their comments have a use
         selected = set(settings.get_names())
-        tags = _collect_tags(description)
+        tags = set(description.document.elements_by_tag)
         idle = {name for name in selected if not applies_to(name, tags)}
         stale = report_unused(suppressions, ran | idle) if robot is not None else ()
         findings += [f for f in (*wrong, *stale) if f.code in selected]
@@ -365,19 +365,9 @@ def _select_rules(
     settings: Settings, targets: frozenset[str], description: Description, name: str
 ) -> list[Rule]:
     """Return the rules to run, computed once for descriptions with equal tags and targets."""
-    known = _collect_tags(description) & _TELLING
+    known = description.document.elements_by_tag.keys() & _TELLING
     tags = frozenset(known) if name == "urdf" else _TELLING  # others have other tags
     return settings.memo.get((targets, tags), lambda: settings.get_rules(targets, tags))
-
-
-def _collect_tags(description: Description) -> set[str]:
-    tags: set[str] = set()
-    todo = [description.document.root]
-    while todo:
-        element = todo.pop()
-        tags.add(element.tag)
-        todo += element.children
-    return tags
 
 
 def _list_documents(description: Description, name: str) -> Iterator[Document]:

@@ -18,6 +18,7 @@ from xml.parsers import expat
 from ..dependencies import read_stamp
 from ..errors import AccessError, SourceError, XmlError
 from ..file_access import AccessRefused
+from ..memo import Memo
 from ..projects import explain_link_out
 from ..workspace import STDIN as STDIN
 from ..workspace import Workspace
@@ -135,15 +136,39 @@ class Comment(NamedTuple):
 
 
 class Document:
-    """File, root element and comments."""
+    """File, root element and comments, which do not change.
 
-    __slots__ = ("comments", "file", "root")
+    Attributes:
+        file: The file.
+        root: Its root element.
+        comments: Its comments.
+        memo: Values computed once for it.
+    """
+
+    __slots__ = ("comments", "file", "memo", "root")
 
     def __init__(self, file: SourceFile, root: Element, comments: list[Comment]) -> None:
         """Create a document of its parts."""
         self.file = file
         self.root = root
         self.comments = comments
+        self.memo = Memo()
+
+    @property
+    def elements(self) -> list[Element]:
+        """Return all elements in document order, collected once."""
+        return self.memo.get("elements", lambda: list(self.root.walk()))
+
+    @property
+    def elements_by_tag(self) -> dict[str, list[Element]]:
+        """Return all elements in document order by tag, collected once."""
+        return self.memo.get("by tag", self._sort_elements)
+
+    def _sort_elements(self) -> dict[str, list[Element]]:
+        found: dict[str, list[Element]] = {}
+        for element in self.elements:
+            found.setdefault(element.tag, []).append(element)
+        return found
 
 
 def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFile:

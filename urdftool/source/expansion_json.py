@@ -153,11 +153,11 @@ class Writer:
 
 
 def split_nodes(nodes: Sequence[Any]) -> list[bytes]:
-    """Return nodes as JSON: one piece for each child of the root element.
+    """Return nodes as JSON: one piece for each child of the root element, and what follows it.
 
     The first piece has what is before the first child.
     """
-    starts = [index for index, node in enumerate(nodes) if node[0] <= _CHILD]
+    starts = [i for i, node in enumerate(nodes) if node[0] <= _CHILD and len(node) == _PARTS]
     starts = [0, *(index for index in starts if index > starts[0]), len(nodes)] if starts else [0]
     encode = json.JSONEncoder(check_circular=False).encode
     return [encode(nodes[start:end]).encode("ascii") for start, end in pairwise(starts)]

@@ -59,6 +59,7 @@ def parse_xacro(file: SourceFile, calls: tuple[Call, ...] = ()) -> XacroDocument
                 at=element.place,
             )
         inside().appendChild(element)
+        document.elements.append(element)
         stack.append(element)
         sizes.append(0 if _is_computed(element) else 1)
 
@@ -122,11 +123,8 @@ def take_tree(file: SourceFile, calls: tuple[Call, ...]) -> XacroDocument:
     document, file.tree = file.tree, None
     if not isinstance(document, XacroDocument):
         return parse_xacro(file, calls)
-    todo: list[XacroElement] = [document.documentElement]
-    while todo:
-        element = todo.pop()
+    for element in document.elements:
         element.calls = calls
-        todo += [child for child in element.childNodes if isinstance(child, XacroElement)]
     return document
 
 

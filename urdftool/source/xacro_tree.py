@@ -240,9 +240,19 @@ class Instances:
 
 
 class XacroDocument(Parent):
-    """Tree of a file."""
+    """Tree of a file.
 
-    __slots__ = ("documentElement",)
+    Attributes:
+        documentElement: Its root element.
+        elements: Its elements as parsed.
+    """
+
+    __slots__ = ("documentElement", "elements")
     nodeType = DOCUMENT
 
     documentElement: XacroElement
+
+    def __init__(self) -> None:
+        """Create a document without a root element."""
+        super().__init__()
+        self.elements: list[XacroElement] = []

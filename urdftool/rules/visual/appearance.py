@@ -211,9 +211,9 @@ def missing_texture(robot: Robot, description: Description) -> Iterator[Problem]
     RViz shows the model without the texture, Drake rejects the file.
     """
     seen: set[str] = set()
-    for element in robot.element.walk():
+    for element in description.document.elements_by_tag.get("texture", ()):
         uri = element.get("filename") or ""
-        if element.tag != "texture" or not uri or uri in seen or is_unexpanded(uri):
+        if not uri or uri in seen or is_unexpanded(uri):
             continue
         seen.add(uri)
         try:

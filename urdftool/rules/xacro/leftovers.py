@@ -47,7 +47,7 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
     ``$(arg …)``, declares none, and is included by a file of a package around it.
     """
     root = description.document.root
-    written = (element for element in root.walk() if _may_be_unexpanded(element))
+    written = filter(_may_be_unexpanded, description.document.elements)
     found = [item for element in written for item in _find_expressions(element)]
     if description.expansion is None:
         if found:

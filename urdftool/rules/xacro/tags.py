@@ -72,6 +72,8 @@ def unprefixed_xacro_tag(document: Document, description: Description) -> Iterat
     if "xmlns:xacro" not in document.root.attributes:
         return
     macros = get_macro_names(description)
+    if document.elements_by_tag.keys().isdisjoint((macros | _TAGS) - (_URDF - _TAGS)):
+        return
     for element in document.root.children:
         yield from _find_unprefixed(element, macros)
 

@@ -27,14 +27,22 @@ _FOR_LAUNCH = {
 }
 
 
+_Match = tuple[Element, re.Match[str], "Place | Element"]
+
+
 def _find_matches(
     document: Document, description: Description, pattern: re.Pattern[str], quick: bytes
-) -> Iterator[tuple[Element, re.Match[str], Place | Element]]:
-    """Yield the matches of a pattern in the attributes and texts of a xacro file."""
-    is_plain = description.expansion is None and bool(description.document.root.tag)
-    if is_plain or not re.search(quick, document.file.data):
+) -> list[_Match]:
+    """Return the matches of a pattern in the attributes and texts of a xacro file."""
+    if description.expansion is None and description.document.root.tag:
+        return []  # not xacro
+    return document.memo.get(pattern, lambda: list(_list_matches(document, pattern, quick)))
+
+
+def _list_matches(document: Document, pattern: re.Pattern[str], quick: bytes) -> Iterator[_Match]:
+    if not re.search(quick, document.file.data):
         return
-    for element in document.root.walk():
+    for element in document.elements:
         for name, value in element.attributes.items():
             match = pattern.search(value) if "$" in value else None
             if match is not None:

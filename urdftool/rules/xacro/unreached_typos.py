@@ -57,16 +57,28 @@ def unreached_typo(document: Document, description: Description) -> Iterator[Pro
     """
     if description.expansion is None and description.document.root.tag:
         return  # not xacro
-    reached = description.memo.get("reached", lambda: _collect_reached(description))
-    macros = get_macro_names(description)
-    for element in document.root.walk():
-        if (element.file.path, element.start) not in reached:
-            for typo in _find_typos(element, macros):
-                yield Problem(typo.element, typo.message, at=typo.at)
+    starts = description.memo.get("reached", lambda: _collect_reached(description))
+    reached, macros = starts.get(document.file.path, set()), get_macro_names(description)
+    typos = document.memo.get_for(
+        _find_typos,
+        (reached, macros),
+        lambda: [
+            typo
+            for element in document.elements
+            if element.start not in reached
+            for typo in _find_typos(element, macros)
+        ],
+    )
+    for typo in typos:
+        yield Problem(typo.element, typo.message, at=typo.at)
 
 
-def _collect_reached(description: Description) -> set[tuple[str, int]]:
-    return {(each.file.path, each.start) for each in description.document.root.walk()}
+def _collect_reached(description: Description) -> dict[str, set[int]]:
+    """Return the first bytes of the elements of each file that are in the robot."""
+    found: dict[str, set[int]] = {}
+    for element in description.document.elements:
+        found.setdefault(element.file.path, set()).add(element.start)
+    return found
 
 
 def _find_typos(element: Element, macros: frozenset[str]) -> Iterator[_Typo]:
