@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.conftest import XACRO
+
 HEAD = '<robot name="{}" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 MACRO = '<xacro:macro name="leg" params="n"><link name="${n}"/></xacro:macro>'
 WRONG = (
@@ -299,3 +301,17 @@ def test_endings_in_capitals_are_found(tmp_path, urdftool, monkeypatch):
     )
     listed = urdftool("lint", ".", "--list").out
     assert [line.split()[0] for line in listed.splitlines()] == ["A.URDF", "part.Xacro", "M.SDF"]
+
+
+def test_a_typo_in_macros_of_a_robot_that_stops_before_them_is_named(write, urdftool):
+    write("package.xml", "<package><name>p</name></package>")
+    wheel = """<xacro:macro name="wheel" params="n"><link name="${n}"/>
+      <joint name="j" type="fixed"><parent lnik="a"/></joint></xacro:macro>"""
+    write("urdf/wheel.urdf.xacro", XACRO.format(wheel))
+    includes = """<xacro:include filename="$(find elsewhere)/a.xacro"/>
+      <xacro:include filename="wheel.urdf.xacro"/><xacro:wheel n="w"/>"""
+    write("urdf/car.urdf.xacro", XACRO.format(includes))
+    result = urdftool("lint", ".", "--format", "concise")
+    assert result.code == 2
+    assert "urdf/wheel.urdf.xacro:" in result.out
+    assert "has the unknown attribute 'lnik'; write link [unreached-typo]" in result.out

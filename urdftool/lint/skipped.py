@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ..configuration import find_configuration
 from ..errors import ConfigError, SourceError
 from ..workspace import Workspace
-from .discover import list_parts
+from .discover import has_ending, list_parts
 from .options import Options
 from .outcome import Report
 
@@ -53,8 +53,8 @@ def add_skipped_parts(
 ) -> Iterator[Report]:
     """Yield the reports, then one for each ``.xacro`` file of named folders that no robot read.
 
-    The source of such a file is checked. A part of a robot that stopped before it has no report
-    unless its source has findings.
+    The source of such a file is checked, and that of a file without links that has the name of a
+    robot. A part of a robot that stopped before it has no report unless its source has findings.
 
     Args:
         reports: Reports of descriptions.
@@ -64,9 +64,17 @@ def add_skipped_parts(
         belonging: Resolved paths of files that a robot includes, which may have stopped earlier.
     """
     read: set[str] = set()
+    without_links: dict[str, Report] = {}
     for report in reports:
+        if report.skipped and has_ending(report.path, ".xacro"):
+            without_links[os.path.realpath(report.path)] = report
+            continue
         read.update(os.path.realpath(path) for path in (report.path, *report.files))
         yield report
+    for real, report in without_links.items():
+        source = None if real in read else _check_part(report.path, check, options)
+        yield replace(report, findings=source.findings) if source else report
+    read.update(without_links)
     for path in list_parts(paths, belonging):
         real = os.path.realpath(path)
         if real in read:
