@@ -107,3 +107,61 @@ def test_a_branch_on_a_link_that_does_not_exist_is_no_loop(urdftool, tmp_path, l
     file.write_text(f'<robot name="r">{links}{hangs.replace("no", "c")}</robot>')
     result = urdftool("export", language, file, "-o", tmp_path / "out")
     assert "[detached-cycle]" in result.err
+
+
+MASKS = (
+    '<mujoco><worldbody><body name="a"><freejoint/>'
+    '<geom type="box" size=".1 .1 .1" contype="2" conaffinity="4" solref=".01 1"/></body>'
+    "</worldbody></mujoco>"
+)
+
+
+@pytest.mark.parametrize("language", ["urdf", "sdf", "usd"])
+def test_a_mask_of_contacts_is_a_loss_and_the_softness_of_a_contact_a_note(
+    urdftool, tmp_path, language
+):
+    pytest.importorskip("mujoco")
+    file = tmp_path / "robot.xml"
+    file.write_text(MASKS)
+    out = tmp_path / f"out.{'usda' if language == 'usd' else language}"
+    usual = urdftool("export", language, file, "-o", out)
+    assert usual.code == 0
+    assert "warning: contype and conaffinity of link 'a'" in usual.err
+    assert "solref" not in usual.err
+    strict = urdftool("export", language, file, "-o", out, "--strict", "--force")
+    assert strict.code == 2
+    assert "error: contype and conaffinity of link 'a'" in strict.err
+
+
+@pytest.mark.parametrize("language", ["urdf", "sdf", "mjcf", "usd"])
+def test_a_spring_that_is_not_linear_is_not_read_and_no_export_is_strict(
+    urdftool, tmp_path, language
+):
+    mujoco = pytest.importorskip("mujoco")
+    text = (
+        '<mujoco><worldbody><body name="a"><joint name="j" stiffness="1 2 3"/>'
+        '<geom type="box" size=".1 .1 .1"/></body></worldbody></mujoco>'
+    )
+    if not hasattr(mujoco.MjModel.from_xml_string("<mujoco/>"), "jnt_stiffnesspoly"):
+        pytest.skip("this MuJoCo has no polynomial springs")
+    file = tmp_path / "robot.xml"
+    file.write_text(text)
+    result = urdftool("export", language, file, "-o", tmp_path / "out", "--strict")
+    assert result.code == 2
+    assert "a spring whose force is not proportional to its deflection is not read" in result.err
+    linear = tmp_path / "linear.xml"
+    linear.write_text(text.replace("1 2 3", "1 0 0"))
+    compared = urdftool("verify", file, linear)
+    assert "parts that are compared were not read" in compared.err
+
+
+def test_losses_that_differ_in_a_name_share_a_line(urdftool, tmp_path):
+    pytest.importorskip("mujoco")
+    bodies = "".join(
+        f'<body><joint name="j{i}" armature=".1"/><geom size=".1"/></body>' for i in range(5)
+    )
+    file = tmp_path / "robot.xml"
+    file.write_text(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
+    result = urdftool("export", "sdf", file, "-o", tmp_path / "out")
+    line = "armature of joint 'j0' is dropped (and 4 more: 'j1', 'j2', 'j3', …)"
+    assert line in result.err

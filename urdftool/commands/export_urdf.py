@@ -70,7 +70,7 @@ def command(
         choices["hardware"] = ""
     file = "robot.urdf" if place == "-" else file
     options = make_options(Options, choices, file=file, srdf=place != "-")
-    model = read_any(console, robot, package, package_path)
+    model = read_any(console, robot, package, package_path, quiet=True)
     return run_export(
         console,
         format_named("urdf"),

@@ -68,6 +68,7 @@ _ROWS = {
     "force-range": _Row(("limits",)),
     "base-dynamics": _Row(("joint physics",)),
     "damping": _Row(("joint physics",)),
+    "spring": _Row(("joint physics",)),
     "discarded-visual": _Row(("visuals", "colors", "textures")),
     "material-script": _Row(("colors", "textures")),
     "texture": _Row(("textures",)),

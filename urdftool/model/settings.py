@@ -248,6 +248,22 @@ ALL_SURFACE, ALL_OF_LINKS, ALL_OF_JOINTS = (
     SURFACE + SURFACE_OF_MUJOCO, OF_LINKS + LINKS_OF_MUJOCO, OF_JOINTS + JOINTS_OF_MUJOCO
 )  # fmt: skip
 
+TUNING = frozenset(
+    row.name
+    for rows, names in (
+        (SURFACE, "bounce_velocity contact_stiffness contact_damping correction_velocity "
+                  "contact_depth contact_cfm contact_erp max_contacts laser_retro"),
+        (SURFACE_OF_MUJOCO, "rolling_friction priority margin gap solmix solref solimp"),
+        (OF_LINKS, "must_be_base_link"),
+        (ALL_OF_JOINTS, "limit_stiffness limit_dissipation stop_cfm stop_erp fudge_factor "
+                        "implicit_spring_damper provide_feedback limit_solref limit_solimp "
+                        "limit_margin friction_solref friction_solimp"),
+        (OF_ROBOT, "may_sleep"),
+    )
+    for row in rows if row.name in names.split()
+)  # fmt: skip
+"""Settings of how a solver holds a contact or a limit; by the others a robot moves otherwise."""
+
 SURFACE_TAGS = frozenset(tag for row in SURFACE for tag in row.tags)
 """Tags in ``<gazebo>`` that apply to each collision of a link."""
 

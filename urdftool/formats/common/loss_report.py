@@ -21,7 +21,7 @@ _RANKED = {
 """Codes of findings that most links of a robot can have, and the value that ranks them."""
 
 _FEW = 3
-"""Ranked findings of one code that are printed one by one; chosen, no source."""
+"""Findings that differ in a value or a name and are printed one by one; chosen, no source."""
 
 
 def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
@@ -37,17 +37,17 @@ def merge_instances(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
-    """Yield a line for each finding, with its remedy; files missing for one cause share a line.
+    """Yield a line for each finding, with its remedy; those that differ in a name share a line.
 
     Of more than ``_MOST_LINES`` findings of one rule, the others are counted.
     """
     counts: Counter[tuple[str, str]] = Counter()
-    for finding, more in _merge_missing_files(merge_instances(findings)):
+    for finding, others in _merge_equal(merge_instances(findings)):
         kind = finding.severity.label, finding.code
         counts[kind] += 1
         if counts[kind] > _MOST_LINES:
             continue
-        hint = f" (and {more} more)" if more else ""
+        hint = f" (and {len(others)} more{_format_names(others)})" if others else ""
         hint += f" ({finding.hint})" if finding.hint else ""
         times = f" (in {finding.expansions} expansions)" if finding.expansions > 1 else ""
         label = "note" if finding.severity is Severity.INFO else finding.severity.label
@@ -55,6 +55,11 @@ def format_lines(findings: Iterable[Finding]) -> Iterator[str]:
     for (label, code), count in counts.items():
         if count > _MOST_LINES:
             yield f"{count - _MOST_LINES} more of severity {label} [{code}]"
+
+
+def _format_names(names: list[str]) -> str:
+    shown = [f"'{name}'" for name in names[:_FEW] if name]
+    return f": {', '.join(shown)}{', …' if len(names) > len(shown) else ''}" if shown else ""
 
 
 def keep_largest(findings: Iterable[Finding]) -> list[Finding]:
@@ -84,17 +89,28 @@ def _get_rank(finding: Finding) -> float:
 
 
 def count_messages(findings: Iterable[Finding]) -> int:
-    """Return the number of findings, in which files missing for one cause count once."""
-    return sum(1 for _ in _merge_missing_files(merge_instances(findings)))
+    """Return the number of findings, in which those that share a line count once."""
+    return sum(1 for _ in _merge_equal(merge_instances(findings)))
 
 
-def _merge_missing_files(findings: Iterable[Finding]) -> Iterator[tuple[Finding, int]]:
-    """Yield the first of the files that are missing for one cause, and the number of the others."""
+def _merge_equal(findings: Iterable[Finding]) -> Iterator[tuple[Finding, list[str]]]:
+    """Yield the first of the findings that share a line, and the names of the others.
+
+    These are files that are missing for one cause, and messages that differ in a name.
+    """
     groups: dict[object, list[Finding]] = {}
-    for index, finding in enumerate(findings):
+    for finding in findings:
         cause = finding.data.get("not_found_because")
-        groups.setdefault((finding.code, cause) if cause else index, []).append(finding)
-    yield from ((some[0], len(some) - 1) for some in groups.values())
+        text = finding.message.replace(f"'{finding.name}'", "''", 1)
+        key = (finding.code, finding.severity, cause or text, finding.hint)
+        groups.setdefault(key, []).append(finding)
+    for some in groups.values():
+        if "not_found_because" in some[0].data:
+            yield some[0], [""] * (len(some) - 1)
+        elif len(some) > _FEW:
+            yield some[0], list(dict.fromkeys(finding.name for finding in some))[1:]
+        else:
+            yield from ((finding, []) for finding in some)
 
 
 def raise_losses_as_errors(findings: Iterable[Finding]) -> list[Finding]:

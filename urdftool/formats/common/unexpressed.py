@@ -12,7 +12,7 @@ from ...model.elements import BALL_TYPES, Link, Material, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
 from ...model.part import Part
 from ...model.read_settings import list_settings
-from ...model.settings import ALL_OF_LINKS, LOST_SETTINGS, LUMPING_TAGS, SPRING, Setting, Settings
+from ...model.settings import LOST_SETTINGS, LUMPING_TAGS, SPRING, TUNING, Setting, Settings
 from ...model.world_settings import describe_setting, list_changed, list_decided
 from ...source.document import Element
 from ...source.location import Place
@@ -117,7 +117,6 @@ def report_unwritten_settings(
         reasons: Why the format does not have settings, by the names of their rows.
     """
     for kind, name, rows, settings in list_settings(robot):
-        usual = Reason("", Severity.WARNING if rows is ALL_OF_LINKS else Severity.INFO)
         found: dict[tuple[Place, str], list[str]] = {}
         for row in rows:
             value = settings.get(row.name)
@@ -126,7 +125,8 @@ def report_unwritten_settings(
             if _EXPRESSED_TAGS.isdisjoint(row.tags):
                 found.setdefault((value.place, value.tag if value.xml else ""), []).append(row.name)
         for (place, tag), lost in found.items():
-            reason = reasons.get(lost[0], usual)
+            usual = Severity.INFO if TUNING.issuperset(lost) else Severity.WARNING
+            reason = reasons.get(lost[0], Reason("", usual))
             what = " and ".join(lost).replace("_", " ")
             what += f" (<{tag}>)" if tag else ""
             text = f"{what} of {kind} '{name}' {'are' if len(lost) > 1 else 'is'} not written"

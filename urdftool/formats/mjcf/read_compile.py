@@ -233,10 +233,17 @@ def _list_joints(spec: Any, model: Any, mujoco: Any) -> list[Row]:
         row["actuatorgravcomp"] = bool(model.jnt_actgravcomp[i])
         row["ref"] = float(model.qpos0[row["qposadr"]])
         row["springref"] = float(model.qpos_spring[row["qposadr"]])
-        poly = getattr(model, "dof_dampingpoly", None)
-        row["poly"] = bool(poly is not None and poly[row["dofadr"]].any())
+        row["poly"] = _is_set(model, "dof_dampingpoly", row["dofadr"])
+        row["spring_poly"] = _is_set(model, "jnt_stiffnesspoly", i)
+        row["springyield"] = _is_set(model, "jnt_springyield", i)
         rows.append(row)
     return rows
+
+
+def _is_set(model: Any, name: str, number: int) -> bool:
+    """Tell whether a value of a compiled model is not zero; older versions of MuJoCo lack some."""
+    values = getattr(model, name, None)
+    return bool(values is not None and values[number].any())
 
 
 def _list_geoms(spec: Any, model: Any, mujoco: Any) -> list[Row]:

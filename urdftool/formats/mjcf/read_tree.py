@@ -172,7 +172,9 @@ def _read_joint(context: Context, row: Row, number: int, parent: str, child: str
         _report_dynamics(context, row)
     else:
         joint.dynamics = _read_dynamics(context, row, written)
-    joint.settings = _read_spring(row, written) | read_settings(row, JOINTS_OF_MUJOCO, written)
+    joint.settings = _read_spring(context, row, written) | read_settings(
+        row, JOINTS_OF_MUJOCO, written
+    )
     effort = _compute_effort(context, row, number)
     velocity = _read_velocity(context, joint.name)
     if limited:
@@ -216,7 +218,10 @@ def _read_dynamics(context: Context, row: Row, written: Written) -> Dynamics | N
     return Dynamics(written, **values) if any(values.values()) else None
 
 
-def _read_spring(row: Row, written: Written) -> Settings:
+def _read_spring(context: Context, row: Row, written: Written) -> Settings:
+    if row["spring_poly"] or row["springyield"]:
+        text = "a spring whose force is not proportional to its deflection is not read"
+        context.losses.add("spring", text, row["name"], written.place)
     if not row["stiffness"]:
         return {}
     found = {"spring_stiffness": Value(written, row["stiffness"])}

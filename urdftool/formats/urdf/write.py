@@ -236,8 +236,10 @@ def _get_frame_name(frame: Frame) -> str:
 
 
 def _report_unexpressed(t: Translation) -> None:
-    """Report what URDF cannot hold, once for each kind."""
+    """Report what the reader left out, and what URDF cannot hold, once for each kind."""
     robot = t.robot
+    t.written.unread = robot.unread
+    t.written.losses += robot.unread
     if robot.xml is None:
         report_world_settings(robot, t.written)
         report_unwritten_settings(robot, t.written, lambda row: row.path)
