@@ -89,7 +89,7 @@ def _drop_shared(content: Content, other: Content) -> str:
 
 _OF_EARTH = 0.04
 """Largest difference of gravity on the ground from 9.8 m/s²: it is 9.764 (Huascarán) to 9.834 m/s²
-(Arctic Ocean); Hirt et al. 2013, doi:10.1002/grl.50838."""
+(Arctic Ocean); source: Hirt et al. 2013, doi:10.1002/grl.50838."""
 
 _SAME = 1e-9
 """Largest difference of equal settings; chosen, above rounding errors."""
