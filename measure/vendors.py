@@ -185,13 +185,8 @@ def describe_feet(model: Any) -> str:
     from urdftool.formats.mjcf.verify_runs import list_low_points
 
     data = pose_at_key(model)
-    plane = int(mujoco.mjtGeom.mjGEOM_PLANE)
-    geoms = [
-        g for g in range(model.ngeom)
-        if (model.geom_contype[g] or model.geom_conaffinity[g]) and model.geom_type[g] != plane
-    ]  # fmt: skip
-    lows = list(list_low_points(mujoco, model, data))
-    feet = [g for g, low in zip(geoms, lows, strict=True) if low < min(lows) + LOW]
+    lows = dict(list_low_points(mujoco, model, data))
+    feet = [geom for geom, low in lows.items() if low < min(lows.values()) + LOW]
     kinds = Counter(
         f"condim {model.geom_condim[g]}, priority {model.geom_priority[g]}, "
         f"friction {model.geom_friction[g][0]:g}"

@@ -68,8 +68,11 @@ def describe_outcome(verdict: Verdict) -> str:
     """Describe the result: a robot that settles upright stands, in spite of model errors."""
     if not verdict.stands:
         return "does not stand"
+    sagging = next((text for text, _ in verdict.motion.describe_joints()), "")
     if not verdict.passes:
-        return "stands, with model errors"
+        return sagging or "stands, with model errors"
+    if sagging:
+        return sagging
     return "stands" + (", with warnings" * any(fault.is_warning for fault in verdict.faults))
 
 

@@ -9,11 +9,13 @@ from dataclasses import dataclass
 from ..diagnostic import Diagnostic, Severity, make_deprecated_name
 from .old_names import OLD_KINDS
 
-FALLEN = frozenset(
+MOVES = frozenset({"not-settled", "joint-drift", "collapsed"})
+"""Kinds of faults with which a robot stands if its base does; see ``mechanics.standing``."""
+
+FALLEN = MOVES | frozenset(
     {
-        *("no-collision-geometry", "diverged", "fell-through", "not-settled", "tipped-over"),
-        *("leans", "slid", "ground-penetration", "joint-drift", "collapsed", "unstable-gains"),
-        "unsupported",
+        *("no-collision-geometry", "diverged", "fell-through", "tipped-over", "leans", "slid"),
+        *("ground-penetration", "unstable-gains", "unsupported"),
     }
 )
 """Kinds of faults of a robot that does not stand; the others are errors in its file."""
@@ -36,12 +38,14 @@ class Fault(Diagnostic):
         name: Name of the link, joint or robot.
         cause: Probable cause; empty if the message contains it.
         rule: Lint rule with more explanation; empty if there is none.
+        spares_base: Whether the base stands in spite of it.
     """
 
     what: str = "robot"
     name: str = ""
     cause: str = ""
     rule: str = ""
+    spares_base: bool = False
 
     place = make_deprecated_name("place", "location")
 
@@ -74,7 +78,7 @@ class Fault(Diagnostic):
     @property
     def fell(self) -> bool:
         """Tell whether a robot with this fault does not stand; other errors are in its file."""
-        return self.fails and self.code in FALLEN
+        return self.fails and self.code in FALLEN and not self.spares_base
 
     @property
     def group(self) -> tuple[str, Severity, str]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from ..diagnostic import Severity
+from ..mechanics.standing import Motion
 from ..model.elements import Robot
 from .checks.contact import check_contacts
 from .checks.controllers import check_controllers
@@ -14,9 +15,10 @@ from .checks.interpenetration import check_sweep
 from .checks.joints import check_joints
 from .checks.settling import check_final_state
 from .checks.support import check_support
-from .fault import Fault
+from .fault import MOVES, Fault
 from .model_checks.description import check_description
 from .model_checks.unread_visuals import report_unread_visuals
+from .motion import measure_run_motion
 from .run import Run
 
 
@@ -27,11 +29,13 @@ class Verdict:
     Attributes:
         run: The trial.
         rest: State of the robot at the end.
+        motion: Motion of the base and the joints, by which it stands or not.
         faults: Faults, errors first, then warnings and remarks.
     """
 
     run: Run
     rest: FinalState
+    motion: Motion
     faults: list[Fault] = field(default_factory=list)
 
     @property
@@ -46,7 +50,7 @@ class Verdict:
 
     @property
     def fell(self) -> bool:
-        """Tell whether the robot fell, tipped over, slid, or still moves."""
+        """Tell whether the robot does not stand, by its motion or its contacts."""
         return any(fault.fell for fault in self.faults)
 
     @property
@@ -58,11 +62,34 @@ class Verdict:
 def judge(robot: Robot, run: Run, *, strict: bool = False) -> Verdict:
     """Judge one trial; ``strict`` makes warnings errors."""
     rest = measure_final_state(run)
+    motion = measure_run_motion(run)
     faults = [_replace_cause(run, fault) for fault in _report_faults(robot, run, rest)]
+    faults = [_spare_base(fault, motion) for fault in faults]
+    if not motion.stands and not any(fault.fell for fault in faults):
+        faults.append(_report_motion(robot, run, motion))
     if strict:
         faults = [_make_error(fault) for fault in faults]
     faults.sort(key=lambda fault: fault.severity, reverse=True)
-    return Verdict(run, rest, faults)
+    return Verdict(run, rest, motion, faults)
+
+
+def _spare_base(fault: Fault, motion: Motion) -> Fault:
+    """Note that the base stands in spite of a fault; a robot that stays and creeps has none."""
+    if fault.code not in MOVES or not motion.stands:
+        return fault
+    is_creep = fault.code == "not-settled" and motion.stays
+    severity = Severity.INFO if is_creep else fault.severity
+    return replace(fault, spares_base=True, severity=severity)
+
+
+def _report_motion(robot: Robot, run: Run, motion: Motion) -> Fault:
+    """Report a motion of which no check knows the cause."""
+    root = robot.link[run.bodies.bodies[0].name]
+    joints = (text for text, _ in motion.describe_joints())
+    what = next(
+        iter((*motion.describe_base(), *joints)), "a number of the simulation is not finite"
+    )
+    return Fault("collapsed", Severity.ERROR, what, root.place, "link", root.name)
 
 
 def _make_error(fault: Fault) -> Fault:

@@ -376,3 +376,22 @@ def test_a_servo_that_is_pushed_against_its_stop_stays_within_it(write, tmp_path
             reached.append(data.qpos[0] - 1)
         excess.append(max(reached))
     assert excess[0] < 0.25 * excess[1]
+
+
+def test_a_joint_that_others_follow_has_the_gain_of_the_longest_step(write):
+    """MuJoCo couples mimic joints without the servo's damping: at 5 ms a stiff one diverges."""
+    alone = robot(link("base"), link("a"), joint("lead", "base", "a", inside=LIMIT))
+    led = robot(
+        link("base"), link("a"), link("b"),
+        joint("lead", "base", "a", inside=LIMIT),
+        joint("follow", "base", "b", inside=LIMIT + '<mimic joint="lead"/>'),
+    )  # fmt: skip
+    gains = [
+        float(
+            find(tree(export(write("r.urdf", text), actuators="position")), "position", "lead").get(
+                "kp"
+            )
+        )
+        for text in (alone, led)
+    ]
+    assert gains[0] / gains[1] == pytest.approx(LONGER**2, rel=0.01)

@@ -159,3 +159,68 @@ def test_joints_that_a_tendon_servo_holds_are_held(tmp_path):
     found = runs(path).announced
     assert found
     assert not [one for one in found if "no servo" in one]
+
+
+ARM = """<body pos="0 0.12 0.05"><joint name="arm" axis="0 1 0"/>
+<geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.01" mass="0.05"/></body>"""
+
+
+def test_an_arm_that_drops_on_a_robot_that_stands_is_named(tmp_path):
+    """The arm is balanced upright, and only the nudge at the start lets it fall."""
+    path = make(tmp_path, height=0.1, legs=0)
+    short = ARM.replace("0.2", "0.1")
+    path.write_text(
+        path.read_text().replace("\n</body></worldbody>", f"{short}</body></worldbody>")
+    )
+    found = runs(path).announced
+    assert len(found) == 2
+    assert all(one.startswith("stands, its joints sag by up to ") for one in found)
+    assert all(one.endswith("'arm' most (at 2 ms); not held: no servo") for one in found[:1])
+
+
+def test_a_pole_that_is_balanced_upright_is_not_equal(tmp_path):
+    path = make(tmp_path, height=1, legs=0)
+    text = (
+        path.read_text()
+        .replace("<freejoint/>", "")
+        .replace("\n</body></world", f"{ARM}</body></world")
+    )
+    path.write_text(text)
+    assert all(one.startswith("joints move by up to ") for one in runs(path).announced)
+    assert runs(path).verdict == "announced"
+
+
+@pytest.mark.parametrize(("limit", "holds"), [("3", True), ("0.02", False)])
+def test_motors_of_an_arm_get_the_torque_that_gravity_needs(tmp_path, limit, holds):
+    """Motors hold nothing by themselves, which the row says; a limit that is too low shows."""
+    path = make(tmp_path, height=1, servos=True)
+    text = path.read_text().replace("<freejoint/>", "").replace("<position", "<motor")
+    path.write_text(
+        text.replace('kp="200" kv="5"', f'ctrllimited="true" ctrlrange="-{limit} {limit}"')
+    )
+    found = runs(path).announced
+    assert found[-1] == "4 motors got the torque that gravity needs; they are no servos"
+    assert (len(found) == 1) == holds
+
+
+def test_a_hand_that_comes_to_rest_on_the_floor_is_named(tmp_path):
+    path = make(tmp_path, height=0.1, legs=0)
+    arm = ARM.replace('pos="0 0.12 0.05"', 'name="hand" pos="0 0.12 0"').replace("0.2", "0.15")
+    path.write_text(path.read_text().replace("\n</body></worldbody>", f"{arm}</body></worldbody>"))
+    found = runs(path).announced
+    assert found
+    assert all("'hand' comes to rest on the ground" in one for one in found)
+
+
+def test_a_wheel_that_turns_does_not_sag(tmp_path):
+    path = make(tmp_path, height=0.1, legs=0)
+    wheel = """<body pos="0.2 0 0"><joint name="wheel" axis="0 1 0"/><geom type="cylinder"
+size="0.05 0.01" quat="1 1 0 0" mass="0.1"/></body>"""
+    text = path.read_text().replace("\n</body></worldbody>", f"{wheel}</body></worldbody>")
+    text = text.replace(
+        "</worldbody>",
+        "</worldbody><actuator><velocity joint='wheel' kv='1' "
+        "name='w'/></actuator><keyframe><key name='home' ctrl='9'/></keyframe>",
+    )
+    path.write_text(text)
+    assert not [one for one in runs(path).announced if "sag" in one]

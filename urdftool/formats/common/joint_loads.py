@@ -29,6 +29,10 @@ _RESERVE = 2.0
 """Ratio of stiffness to the m·g·h at which an inverted pendulum tips; chosen, no source."""
 
 
+WHEEL = 0.05
+"""Distance of the center of mass of a wheel from its axis, relative to its height, at most; chosen,
+no source."""
+
 SINGULAR = 1e-6
 """Ratio of these inertias below which nothing with mass is between two axes; chosen, no source."""
 
@@ -54,6 +58,7 @@ class JointLoad:
         is_carried: Whether the ground carries what the joint moves.
         free: Inertia that it moves while the other joints are free, carried or not.
         is_singular: Whether the joint and another can turn against each other without moving mass.
+        is_followed: Whether mimic joints follow it.
     """
 
     inertia: float = 0.0
@@ -63,6 +68,7 @@ class JointLoad:
     is_carried: bool = False
     free: float = 0.0
     is_singular: bool = False
+    is_followed: bool = False
 
     def add_armature(self, armature: float) -> JointLoad:
         """Return the load with a rotor inertia at the joint [kg·m² or kg]."""
@@ -110,6 +116,7 @@ def compute_joint_loads(
     found = {}
     joints = [j for j in tree.moving if j.type in ("revolute", "continuous", "prismatic")]
     ratios = _compute_ratios(tree, joints, poses, bodies, below)
+    leaders = {joint.mimic.joint for joint in tree.moving if joint.mimic is not None}
     for joint in joints:
         moved = below[tree.group[joint.child]]
         held = np.array([carrier in moved for carrier in carriers], dtype=bool)
@@ -119,11 +126,15 @@ def compute_joint_loads(
         part = min(max(ratios[joint.name], LEAST_REDUCED), 1.0)
         load = replace(load, free=part * load.inertia)
         if held.any():
-            stiffness = _compute_stiffness(joint, poses[joint.child], bodies)
+            stiffness = _compute_stiffness(joint, poses[joint.child], bodies, bodies.select(moved))
             load = replace(load, stiffness=stiffness, is_carried=True)
         else:
             load = replace(load, reduced=load.free)
-        found[joint.name] = replace(load, is_singular=ratios[joint.name] < SINGULAR)
+        found[joint.name] = replace(
+            load,
+            is_singular=ratios[joint.name] < SINGULAR,
+            is_followed=joint.name in leaders,
+        )
     return found
 
 
@@ -221,12 +232,20 @@ def _compute_momentum(moved: _Bodies, screw: Array) -> Array:
     return np.concatenate([angular.sum(axis=0), linear.sum(axis=0)])
 
 
-def _compute_stiffness(joint: Joint, pose: Pose, bodies: _Bodies) -> float:
-    """Return twice m·g·h [N·m/rad] of the robot above a hinge that is not upright, else 0."""
-    total = float(bodies.masses.sum())
-    is_upright = abs(_get_axis(joint, pose)[2]) > LEVEL_AXIS
-    if joint.type != "revolute" or is_upright or not total:
+def _compute_stiffness(joint: Joint, pose: Pose, bodies: _Bodies, moved: _Bodies) -> float:
+    """Return twice m·g·h [N·m/rad] of the robot above a hinge that is not upright, else 0.
+
+    A wheel, with its center of mass on the axis, needs none.
+    """
+    total, axis = float(bodies.masses.sum()), _get_axis(joint, pose)
+    is_upright = abs(axis[2]) > LEVEL_AXIS
+    if joint.type == "prismatic" or is_upright or not total or not moved.masses.sum():
         return 0.0
+    if joint.type == "continuous":
+        center = moved.masses @ moved.centers / moved.masses.sum() - np.array(pose.translation)
+        reach = float(np.linalg.norm(moved.centers - np.array(pose.translation), axis=1).max())
+        if np.linalg.norm(np.cross(axis, center)) <= WHEEL * max(reach, abs(pose.translation[2])):
+            return 0.0
     height = float(bodies.masses @ bodies.centers[:, 2]) / total - pose.translation[2]
     return _RESERVE * total * GRAVITY * max(height, 0.0)
 

@@ -33,6 +33,9 @@ With implicit damping, servos with gains K and damping D are stable at a step h 
 h² K < 4 M + 2 h D (in matrices, M the mass matrix). With D critical for the free inertia F of each
 joint, this holds for every M if K ≤ (4/LONGER)² F/Δt² and h ≤ LONGER Δt; with D critical for the
 held inertia, which bounds K as well, up to 4 Δt.
+
+MuJoCo couples mimic joints without the implicit damping of the servo, at a longer step the weaker:
+a servo that others follow has the gain for the longest step.
 """
 
 POSITION_GAIN = {"hinge": 40.0, "slide": 400.0}
@@ -96,7 +99,8 @@ def choose_position_gain(
         load: What the joint moves, with its armature, and holds.
         timestep: Physics time step [s].
     """
-    most = PART * (load.reduced or load.inertia) / timestep**2
+    longest = timestep * (LONGER if load.is_followed else 1.0)
+    most = PART * (load.reduced or load.inertia) / longest**2
     if effort:
         desired = max(effort * POSITION_GAIN[kind], load.stiffness)
     elif most > 0:
@@ -184,7 +188,7 @@ def report_gains(
     bounded = [name for name, gain in assumed.items() if gain.is_bounded]
     if bounded:
         text += (
-            f"; the inertia M at home and Δt = {timestep * 1000:g} ms bound them to "
+            f"; the inertia M at home and Δt = {timestep * 1000:g} ms bound them to at most "
             f"{PART:g} M/Δt² for {_format_listed(bounded)}"
         )
     most = max(assumed, key=lambda name: assumed[name].sag)

@@ -15,6 +15,20 @@ import numpy as np
 
 from ...compare.check import Check
 from ...mechanics.reference import Array
+from ...mechanics.standing import (
+    DRIFT,
+    NUDGE_ANGLE,
+    NUDGE_TOWARD,
+    THE_BASE,
+    TILT,
+    WINDOW,
+    BaseMotion,
+    Bounds,
+    JointMotion,
+    Motion,
+    extrapolate,
+    get_nudge_side,
+)
 from ...workspace import Workspace
 from ..common.losses import DeclaredLosses
 from .compiled import import_mujoco_module
@@ -28,29 +42,10 @@ SECONDS = 2.0
 BEYOND = 0.01
 """Tolerance of joint limits [rad or m]. Chosen, no source."""
 
-DRIFT = 0.02
-"""Maximum motion of a free base from the start [m]; chosen, no source."""
-
-TILT = 3.0
-"""Maximum tilt of a free base from the start [°]; chosen, no source."""
-
-SWING = 0.1
-"""Maximum motion of a joint that no servo holds [rad or m]; chosen, no source."""
-
-SAG = 0.05
-"""Maximum motion of a joint that a servo holds [rad or m]; chosen, no source: ``TILT`` in radians.
+WHEEL = 0.01
+"""Distance of the center of mass of a wheel from its axis, at most [size of the robot]; chosen, no
+source.
 """
-
-FALLEN_TILT = 30.0
-"""Tilt of a free base above which the robot has fallen [°]; chosen, no source."""
-
-FALLEN_DROP = 0.3
-"""Drop of the center of mass, relative to its first height, above which the robot has fallen;
-chosen, no source.
-"""
-
-THE_BASE = "the base"
-"""The only free body of a model that has no other body on its world, in messages."""
 
 STOP = 1e6
 """Speed [rad/s or m/s] above which the simulation has diverged."""
@@ -64,86 +59,56 @@ class Trial:
         timestep: Physics time step [s].
         warnings: Time [s] of the first occurrence of each of MuJoCo's warnings.
         beyond: Largest excess over joint limits [rad or m], by joint name, above the tolerance.
-        base: The free body that moves most, for messages; empty if the model has none.
-        drift: Its motion from the start [m]; infinite if the simulation diverged.
-        tilt: Its tilt from the start [°].
-        drop: Drop of the center of mass that it carries, relative to the height at the start.
-        sink: Its drop [m].
-        swing: Motion of each joint of a fixed base from the start [rad or m], by name.
-        held: Names of the joints that a servo holds, directly or by a mimic.
-        floating: Names of the joints that a free body carries.
-        speed: Highest joint speed at the end [rad/s or m/s].
+        motion: Motion of the free bodies, and of the joints except those that follow another one.
+        motors: Names of the joints on a fixed base that got the torque that gravity needs.
     """
 
     timestep: float
     warnings: dict[str, float] = field(default_factory=dict)
     beyond: dict[str, float] = field(default_factory=dict)
-    base: str = ""
-    drift: float = 0.0
-    tilt: float = 0.0
-    drop: float = 0.0
-    sink: float = 0.0
-    swing: dict[str, float] = field(default_factory=dict)
-    held: frozenset[str] = frozenset()
-    floating: frozenset[str] = frozenset()
-    speed: float = 0.0
+    motion: Motion = field(default_factory=Motion)
+    motors: tuple[str, ...] = ()
+
+    @property
+    def drift(self) -> float:
+        """Return the motion of the free body that moves most [m]; infinite after a divergence."""
+        if not self.motion.is_finite:
+            return math.inf
+        return 0.0 if self.motion.worst is None else self.motion.worst.drift
 
     def list_faults(self) -> list[str]:
-        """List all faults as text; empty for a model that runs."""
-        return [*self.list_instabilities(), *self.list_excesses(), *self.describe_motion()]
+        """List all faults of a free base and of the simulation as text; empty if it runs."""
+        return [*self.list_instabilities(), *self.list_excesses(), *self.describe_base()]
 
-    @property
-    def is_held(self) -> bool:
-        """Tell whether a servo holds a joint that a free body carries, or there is none."""
-        return not self.floating or bool(self.held & self.floating)
+    def _end(self, text: str, *, is_held: bool = True) -> str:
+        return f"{text} (at {self.timestep * 1000:g} ms)" + "; not held: no servo" * (not is_held)
 
-    @property
-    def moves(self) -> bool:
-        """Tell whether a free base does not stay where it starts."""
-        return math.isfinite(self.drift) and (self.drift > DRIFT or self.tilt > TILT)
-
-    def describe_motion(self) -> Iterator[str]:
+    def describe_base(self) -> Iterator[str]:
         """Describe the motion of a free base, if it does not stay where it starts."""
-        if not self.moves:
-            return
-        cause = "" if self.is_held else "; not held: no servo"
-        at = f"(at {self.timestep * 1000:g} ms){cause}"
-        moved = f"{self.base} moves by {self.drift:.2g} m and tilts by {self.tilt:.2g}°"
-        if self.tilt > FALLEN_TILT or self.drop > FALLEN_DROP:
-            yield f"falls: {moved} {at}"
-        elif self.sink > self.drift / 2:
-            who = "" if self.base == THE_BASE else f"{self.base} "
-            yield f"{who}sags by {self.sink:.2g} m, and tilts by {self.tilt:.2g}° {at}"
-        else:
-            yield f"{moved} {at}"
+        carried = [joint for joint in self.motion.joints if joint.is_carried]
+        is_held = not carried or any(joint.is_held for joint in carried)
+        for text in self.motion.describe_base():
+            yield self._end(text, is_held=is_held)
 
-    def describe_swing(self) -> Iterator[str]:
-        """Describe the joints on a fixed base that do not stay where they start."""
-        moved = {name: amount for name, amount in self.swing.items()
-                 if amount > (SAG if name in self.held else SWING)}  # fmt: skip
-        if not moved:
-            return
-        worst = max(moved, key=lambda name: moved[name])
-        cause = "" if worst in self.held else "; not held: no servo"
-        at = f"(at {self.timestep * 1000:g} ms){cause}"
-        yield f"joints move by up to {moved[worst]:.2g}, '{worst}' most {at}"
+    def describe_joints(self) -> Iterator[str]:
+        """Describe the joints that do not stay where they start, if their base stands."""
+        for text, is_held in self.motion.describe_joints():
+            yield self._end(text, is_held=is_held)
 
     def list_instabilities(self) -> list[str]:
         """List warnings and divergence."""
-        at = f"at {self.timestep * 1000:g} ms"
         found = [
-            f"MuJoCo warns after {time:.3g} s: {text} ({at})"
+            self._end(f"MuJoCo warns after {time:.3g} s: {text}")
             for text, time in self.warnings.items()
         ]
-        if not math.isfinite(self.drift):
-            found.append(f"the state is not finite ({at})")
+        if not self.motion.is_finite:
+            found.append(self._end("the state is not finite"))
         return found
 
     def list_excesses(self) -> list[str]:
         """List joints outside their limits."""
-        at = f"at {self.timestep * 1000:g} ms"
         return [
-            f"joint '{name}' leaves its limits by {amount:.2g} ({at})"
+            self._end(f"joint '{name}' leaves its limits by {amount:.2g}")
             for name, amount in self.beyond.items()
         ]
 
@@ -181,12 +146,14 @@ def check_runs(
         for fault in trial.list_instabilities():
             check.compare(math.inf, fault, known=known or is_other)
         # the export does not determine whether a free robot stands or sags
+        carried = {joint.name for joint in trial.motion.joints if joint.is_carried}
         for name, fault in zip(trial.beyond, trial.list_excesses(), strict=True):
-            check.compare(math.inf, fault, known=known or is_other or name in trial.floating)
-        for fault in trial.describe_swing():
-            check.compare(max(*trial.swing.values(), 2 * DRIFT), fault, known=True)
-        for fault in trial.describe_motion():
+            check.compare(math.inf, fault, known=known or is_other or name in carried)
+        for fault in (*trial.describe_joints(), *trial.describe_base()):
             check.compare(max(trial.drift, 2 * DRIFT), fault, known=True)
+    if trial.motors:
+        text = f"{len(trial.motors)} motors got the torque that gravity needs; they are no servos"
+        check.compare(2 * DRIFT, text, known=True)
     return check
 
 
@@ -212,21 +179,26 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
     trial = Trial(timestep)
     bases = [int(body) for body in np.flatnonzero(_compute_free_bodies(mujoco, model))]
     names = _name_joints(mujoco, model)
-    trial.floating = frozenset(
-        name for joint, name in names.items() if model.body_rootid[model.jnt_bodyid[joint]] in bases
-    )
     driven = _list_driven_joints(mujoco, model, data, by_position=False)
-    trial.held = frozenset(names[joint] for joint in driven if joint in names)
     held = _list_driven_joints(mujoco, model, data, by_position=True)
     limited = [joint for joint in sorted(held) if model.jnt_limited[joint] and joint in names]
-    start, joints = _Pose(model, data, bases), np.array(data.qpos)
+    motors = _Motors(mujoco, model, bases)
+    trial.motors = tuple(names[joint] for joint in motors.joints)
+    poses = [_Pose(model, data, bases)]
+    size = _measure_size(model, poses[0])
+    wheels = set(_list_wheels(mujoco, model, data, size))
+    gravity, later = np.array(model.opt.gravity), [WINDOW, WINDOW / 2]
     while data.time < seconds:
+        lean = get_nudge_side(data.time) * NUDGE_ANGLE * float(np.linalg.norm(gravity))
+        toward = (math.cos(NUDGE_TOWARD), math.sin(NUDGE_TOWARD), 0.0)
+        model.opt.gravity[:] = gravity + lean * np.array(toward)
+        motors.drive(data)
         mujoco.mj_step(model, data)
         for text in warned:
             trial.warnings.setdefault(text.partition(" Time =")[0], float(data.time))
         warned.clear()
         if not np.isfinite(data.qpos).all() or abs(data.qvel).max(initial=0.0) > STOP:
-            trial.drift = math.inf
+            trial.motion = Motion(is_finite=False)
             return trial
         for joint in limited:
             value = float(data.qpos[model.jnt_qposadr[joint]])
@@ -234,43 +206,167 @@ def run_at_home(path: Path, timestep: float, seconds: float = SECONDS) -> Trial:
             amount = float(max(low - value, value - high))
             if amount > BEYOND:
                 trial.beyond[names[joint]] = max(amount, trial.beyond.get(names[joint], 0.0))
-    moved = abs(data.qpos - joints)
-    for joint, name in names.items():
-        if name not in trial.floating:
-            first = int(model.jnt_qposadr[joint])
-            count = 4 if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_BALL else 1
-            trial.swing[name] = float(moved[first : first + count].max())
-    if bases:
-        _measure_motion(mujoco, model, trial, start, _Pose(model, data, bases))
-    trial.speed = float(abs(data.qvel).max(initial=0.0))
+        if later and data.time >= seconds - later[0]:
+            later.pop(0)
+            poses.append(_Pose(model, data, bases))
+    poses.append(_Pose(model, data, bases))
+    trial.motion = Motion(
+        _measure_bases(mujoco, model, data, poses),
+        _measure_joints(mujoco, model, names, poses, bases, {*driven, *motors.joints}, wheels),
+        bounds=Bounds.for_size(size),
+    )
     return trial
 
 
+class _Motors:
+    """Motors of joints on a fixed base, which hold them by the torque that gravity needs."""
+
+    def __init__(self, mujoco: Any, model: Any, bases: list[int]) -> None:
+        kinds, self.model = mujoco.mjtTrn, model
+        found: dict[int, int] = {}
+        for actuator in range(model.nu):
+            joint = int(model.actuator_trnid[actuator][0])
+            if (
+                model.actuator_trntype[actuator] == kinds.mjTRN_JOINT
+                and model.actuator_biastype[actuator] == mujoco.mjtBias.mjBIAS_NONE
+                and model.actuator_dyntype[actuator] == mujoco.mjtDyn.mjDYN_NONE
+                and model.actuator_gaintype[actuator] == mujoco.mjtGain.mjGAIN_FIXED
+                and model.jnt_type[joint] >= int(mujoco.mjtJoint.mjJNT_SLIDE)
+                and model.body_rootid[model.jnt_bodyid[joint]] not in bases
+                and model.actuator_gainprm[actuator][0] * model.actuator_gear[actuator][0]
+            ):
+                found.setdefault(joint, actuator)
+        self.joints = list(found)
+        self._numbers = np.array(list(found.values()), dtype=int)
+        self._dofs = model.jnt_dofadr[self.joints] if found else np.zeros(0, dtype=int)
+        self._gains = (
+            model.actuator_gainprm[self._numbers, 0] * model.actuator_gear[self._numbers, 0]
+        )
+
+    def drive(self, data: Any) -> None:
+        """Set the controls to the torque that balances gravity and springs in this state."""
+        if not len(self._numbers):
+            return
+        wanted = (data.qfrc_bias - data.qfrc_passive)[self._dofs] / self._gains
+        low, high = self.model.actuator_ctrlrange[self._numbers].T
+        is_limited = self.model.actuator_ctrllimited[self._numbers] > 0
+        data.ctrl[self._numbers] = np.where(is_limited, np.clip(wanted, low, high), wanted)
+
+
 class _Pose:
-    """Places of the free bodies, and of the mass that each carries."""
+    """Joint positions, places of the free bodies, and of the mass that each carries."""
 
     def __init__(self, model: Any, data: Any, bases: list[int]) -> None:
-        self.bodies = bases
+        self.bodies, self.joints = bases, np.array(data.qpos)
         self.places = np.array(data.xpos[bases])
         self.up = np.array(data.xmat[bases])[:, 6:]  # the world's z axis in the body
         self.heights = np.array(data.subtree_com[bases])[:, 2]
-        self.lowest = compute_lowest_point(import_mujoco_module(), model, data)
+        self.all_places, self.geoms = np.array(data.xpos), np.array(data.geom_xpos)
+        self.lows = dict(list_low_points(import_mujoco_module(), model, data))
 
 
-def _measure_motion(mujoco: Any, model: Any, trial: Trial, start: _Pose, end: _Pose) -> None:
-    """Record the motion of the free body that moves most, by its drift and its tilt."""
-    drifts = np.linalg.norm(end.places - start.places, axis=1)
-    cosines = np.clip((start.up * end.up).sum(axis=1), -1.0, 1.0)
-    tilts = np.degrees(np.arccos(cosines))
-    most = int(np.maximum(drifts / DRIFT, tilts / TILT).argmax())
-    body = start.bodies[most]
+def _measure_bases(mujoco: Any, model: Any, data: Any, poses: list[_Pose]) -> list[BaseMotion]:
+    """Measure the motion of each free body, from the start to the last of the poses."""
+    start, *window = poses
+    end, found = window[-1], []
     is_alone = (model.body_parentid[1:] == 0).sum() == 1
-    name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, body) or body
-    trial.base = THE_BASE if is_alone else f"body '{name}'"
-    trial.drift, trial.tilt = float(drifts[most]), float(tilts[most])
-    trial.sink = float(start.places[most, 2] - end.places[most, 2])
-    height = max(float(start.heights[most] - start.lowest), 1e-9)
-    trial.drop = float(start.heights[most] - end.heights[most]) / height
+    for row, body in enumerate(start.bodies):
+        moves = [pose.places[row] - start.places[row] for pose in window]
+        cosines = [float(start.up[row] @ pose.up[row]) for pose in window]
+        tilts = [math.degrees(math.acos(min(max(cosine, -1.0), 1.0))) for cosine in cosines]
+        own = [geom for geom in start.lows if model.body_rootid[model.geom_bodyid[geom]] == body]
+        lowest = min((start.lows[geom] for geom in own), default=0.0)
+        height = max(float(start.heights[row]) - lowest, 1e-9)
+        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, body) or body
+        found.append(
+            BaseMotion(
+                THE_BASE if is_alone else f"body '{name}'",
+                drift=float(np.linalg.norm(moves[-1])),
+                slide=abs(extrapolate([float(np.linalg.norm(move[:2])) for move in moves])),
+                tilt=tilts[-1],
+                lean=abs(extrapolate(tilts)),
+                sink=-float(moves[-1][2]),
+                drop=float(start.heights[row] - end.heights[row]) / height,
+                resting=tuple(_list_resting_bodies(mujoco, model, data, start, own, body, lowest)),
+            )
+        )
+    return found
+
+
+def _list_resting_bodies(
+    mujoco: Any, model: Any, data: Any, start: _Pose, own: list[int], base: int, lowest: float
+) -> Iterator[str]:
+    """List what touches the world, and was too high for it at the start, with its rigid body."""
+    touching = set()
+    for contact in data.contact[: data.ncon]:
+        bodies = [int(model.geom_bodyid[geom]) for geom in contact.geom]
+        if model.body_weldid[bodies[0]] == 0 or model.body_weldid[bodies[1]] == 0:
+            touching |= {int(model.body_weldid[body]) for body in bodies}
+    spans: dict[int, float] = {}
+    for geom in own:
+        reach = float(np.linalg.norm((start.geoms[geom] - start.all_places[base])[:2]))
+        above = start.lows[geom] - lowest - DRIFT - math.sin(math.radians(TILT)) * reach
+        rigid = int(model.body_weldid[model.geom_bodyid[geom]])
+        spans[rigid] = min(above, spans.get(rigid, math.inf))
+    for rigid, above in spans.items():
+        if rigid in touching and above > 0:
+            yield mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, rigid) or str(rigid)
+
+
+def _measure_joints(
+    mujoco: Any,
+    model: Any,
+    names: dict[int, str],
+    poses: list[_Pose],
+    bases: list[int],
+    held: set[int],
+    wheels: set[int],
+) -> list[JointMotion]:
+    """Measure the motion of each joint that does not follow another one."""
+    start, end = poses[0], poses[-1]
+    kinds = mujoco.mjtJoint
+    followers = {
+        int(model.eq_obj1id[number])
+        for number in range(model.neq)
+        if model.eq_type[number] == mujoco.mjtEq.mjEQ_JOINT and model.eq_obj2id[number] >= 0
+    }
+    found = []
+    for joint, name in names.items():
+        if joint in followers or joint in wheels:
+            continue
+        first = int(model.jnt_qposadr[joint])
+        moved = end.joints[first] - start.joints[first]
+        if model.jnt_type[joint] == kinds.mjJNT_BALL:
+            part = slice(first, first + 4)  # a unit quaternion
+            moved = 2 * math.acos(min(abs(float(end.joints[part] @ start.joints[part])), 1.0))
+        found.append(
+            JointMotion(
+                name,
+                abs(float(moved)),
+                is_held=joint in held,
+                is_slide=bool(model.jnt_type[joint] == kinds.mjJNT_SLIDE),
+                is_carried=int(model.body_rootid[model.jnt_bodyid[joint]]) in bases,
+            )
+        )
+    return found
+
+
+def _list_wheels(mujoco: Any, model: Any, data: Any, size: float) -> Iterator[int]:
+    """List the joints that turn without a limit about an axis through what they carry."""
+    for joint in range(model.njnt):
+        if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE and not model.jnt_limited[joint]:
+            arm = data.subtree_com[model.jnt_bodyid[joint]] - data.xanchor[joint]
+            if np.linalg.norm(np.cross(arm, data.xaxis[joint])) < WHEEL * size:
+                yield joint
+
+
+def _measure_size(model: Any, start: _Pose) -> float:
+    """Measure the largest extent of the spheres about the geoms of moving bodies [m]."""
+    own = np.flatnonzero((model.geom_rbound > 0) & (model.body_weldid[model.geom_bodyid] > 0))
+    if not len(own):
+        return float(model.stat.extent)
+    places, radii = start.geoms[own], model.geom_rbound[own][:, None]
+    return float(((places + radii).max(axis=0) - (places - radii).min(axis=0)).max())
 
 
 def read_home_positions(mujoco: Any, model: Any) -> Array:
@@ -383,12 +479,11 @@ def _read_spec(mujoco: Any, path: Path) -> Any:
 
 def compute_lowest_point(mujoco: Any, model: Any, data: Any) -> float:
     """Compute the height [m] of the lowest point of the collision geoms, in the world."""
-    lows = list(list_low_points(mujoco, model, data))
-    return min(lows, default=0.0)
+    return min((low for _, low in list_low_points(mujoco, model, data)), default=0.0)
 
 
-def list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
-    """Yield the height [m] of the lowest point of each collision geom that is not a plane."""
+def list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[tuple[int, float]]:
+    """Yield each collision geom that is not a plane, and the height of its lowest point [m]."""
     kinds = mujoco.mjtGeom
     for geom in range(model.ngeom):
         kind = int(model.geom_type[geom])
@@ -398,7 +493,7 @@ def list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
         rotation = data.geom_xmat[geom].reshape(3, 3)
         place, size = data.geom_xpos[geom], model.geom_size[geom]
         if kind in _REACHES:
-            yield float(place[2] - _REACHES[kind](rotation[2], size))
+            yield geom, float(place[2] - _REACHES[kind](rotation[2], size))
             continue
         if kind == int(kinds.mjGEOM_MESH):
             mesh = int(model.geom_dataid[geom])
@@ -408,7 +503,7 @@ def list_low_points(mujoco: Any, model: Any, data: Any) -> Iterator[float]:
             middle, half = model.geom_aabb[geom][:3], model.geom_aabb[geom][3:]
             signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
             points = middle + signs * half
-        yield float((points @ rotation.T + place)[:, 2].min())
+        yield geom, float((points @ rotation.T + place)[:, 2].min())
 
 
 _SPHERE, _CAPSULE, _ELLIPSOID, _CYLINDER = 2, 3, 4, 5  # mjtGeom of MuJoCo

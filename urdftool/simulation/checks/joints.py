@@ -101,7 +101,7 @@ def _report_joint_drift(robot: Robot, run: Run, state: FinalState) -> Iterator[F
         target, now = recording.targets[joint.name], float(recording.positions[-1, column])
         if not abs(now - target) > get_drift_bound(joint, run):
             continue
-        if state.settled is not None and _rolls(run, column):
+        if state.settled is not None and rolls(run, column):
             continue  # the wheel turned or slid; whether the robot stands does not depend on it
         need = compute_needed_effort(run, column)
         length, force = _choose_units(joint)
@@ -135,7 +135,7 @@ def _report_joint_drift(robot: Robot, run: Run, state: FinalState) -> Iterator[F
         )
 
 
-def _rolls(run: Run, column: int) -> bool:
+def rolls(run: Run, column: int) -> bool:
     """Tell whether a joint is that of a wheel on level ground, which requires no effort.
 
     The joint of a wheel is continuous, its body makes contact with the ground, and the center of
@@ -261,7 +261,7 @@ def _report_near_effort_limit(robot: Robot, run: Run) -> Iterator[Fault]:
         if joint.name in recording.targets and joint.effort and used > near:
             need = compute_needed_effort(run, column)
             idle = need is not None and abs(need) < near
-            if idle or _rolls(run, column):
+            if idle or rolls(run, column):
                 continue  # the joint returns to its target, or wheels push against each other
             _, force = _choose_units(joint)
             yield Fault(
