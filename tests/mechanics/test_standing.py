@@ -28,7 +28,7 @@ def motion(joints=(), bases=None, **base):
         ({"tilt": 11, "lean": 11}, False, False),
         ({"drift": 0.3, "slide": 0.3}, True, False),
         ({"drift": 0.6, "slide": 0.6}, False, False),
-        ({"drift": 0.09, "sink": 0.09, "drop": 0.11}, False, False),
+        ({"drift": 0.09, "sink": 0.09, "shrinking": 0.11}, False, False),
         ({"resting": ("hand",)}, False, False),
     ],
 )

@@ -19,11 +19,12 @@ FALLEN = 30.0
 """Tilt of a base above which the robot has fallen [°]; chosen, no source."""
 
 SINK = 0.1
-"""Drop of the center of mass, relative to its first height, of a robot that stands, at most;
-chosen, no source."""
+"""Part of the height of its center of mass that a robot that stands loses, at most; chosen, no
+source."""
 
 FALLEN_DROP = 0.3
-"""The same drop above which the robot has fallen; chosen, no source."""
+"""Drop of the center of mass, relative to this height, above which the robot has fallen; chosen, no
+source."""
 
 SLIDE = 0.5
 """Motion along the ground of a robot that stands, at most [its size]; chosen, no source."""
@@ -91,7 +92,9 @@ class BaseMotion:
         tilt: Its tilt [°].
         lean: The same, with what follows within the horizon.
         sink: Its drop [m].
-        drop: Drop of the center of mass that it carries, relative to its height at the start.
+        drop: Drop of the center of mass that it carries, relative to its height at the start above
+            the lowest point.
+        shrinking: Part of this height that it lost, also if it started above the ground.
         resting: What rests on the ground, and was too high at the start for a base that stays.
     """
 
@@ -102,6 +105,7 @@ class BaseMotion:
     lean: float = 0.0
     sink: float = 0.0
     drop: float = 0.0
+    shrinking: float = 0.0
     resting: tuple[str, ...] = ()
 
     @property
@@ -182,7 +186,7 @@ class Motion:
         return (
             base.lean <= self.bounds.lean
             and base.slide <= self.bounds.slide
-            and base.drop <= SINK
+            and base.shrinking <= SINK
             and not base.resting
         )
 
@@ -218,6 +222,8 @@ class Motion:
             yield f"falls: {moved}"
         elif base.resting:
             yield f"{moved}; '{base.resting[0]}' comes to rest on the ground"
+        elif base.shrinking > SINK:
+            yield f"{moved}; the center of mass sinks by {base.shrinking:.0%} of its height"
         elif base.stays:
             goes = f"{base.slide:.2g} m and {base.lean:.2g}°"
             yield f"{moved}, and would go on to {goes} in {HORIZON:g} s"

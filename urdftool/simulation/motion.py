@@ -62,11 +62,14 @@ def _measure_base(run: Run, samples: list[int]) -> BaseMotion:
     tilts = [math.degrees(measure_tilt(poses[sample], run)) for sample in samples]
     numbers = range(len(run.bodies.bodies))
     first, last = (run.compute_center_of_mass(numbers, sample) for sample in (0, -1))
-    drop = 0.0
-    lows = _measure_low_points(run)
+    drop = shrinking = 0.0
+    lows = _measure_low_points(run, 0)
     lowest = min(lows.values(), default=0.0)
-    if first is not None and last is not None:
-        drop = (first[2] - last[2]) / max(first[2] - lowest, 1e-9)
+    is_upright = not any(run.settings.start_rpy)  # a tilted start has other heights
+    if lows and is_upright and first is not None and last is not None:
+        height = max(first[2] - lowest, DRIFT)
+        drop = (first[2] - last[2]) / height
+        shrinking = drop - (lowest - min(_measure_low_points(run, -1).values())) / height
     return BaseMotion(
         THE_BASE,
         drift=float(np.linalg.norm(moves[-1])),
@@ -75,15 +78,16 @@ def _measure_base(run: Run, samples: list[int]) -> BaseMotion:
         lean=abs(extrapolate(tilts)),
         sink=-float(moves[-1, 2]),
         drop=drop,
-        resting=tuple(_list_resting_links(run, lows, lowest)),
+        shrinking=shrinking,
+        resting=tuple(_list_resting_links(run, lows, lowest)) if is_upright else (),
     )
 
 
-def _measure_low_points(run: Run) -> dict[int, float]:
-    """Measure the height of the lowest point of each body with shapes at the start [m]."""
+def _measure_low_points(run: Run, sample: int) -> dict[int, float]:
+    """Measure the height of the lowest point of each body with shapes in a sample [m]."""
     found = {}
     for number, (body, pose) in enumerate(
-        zip(run.bodies.bodies, run.recording.poses[0], strict=True)
+        zip(run.bodies.bodies, run.recording.poses[sample], strict=True)
     ):
         if body.shapes:
             x, y, z, w = pose[3:].tolist()

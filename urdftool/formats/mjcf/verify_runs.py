@@ -276,7 +276,9 @@ def _measure_bases(mujoco: Any, model: Any, data: Any, poses: list[_Pose]) -> li
         tilts = [math.degrees(math.acos(min(max(cosine, -1.0), 1.0))) for cosine in cosines]
         own = [geom for geom in start.lows if model.body_rootid[model.geom_bodyid[geom]] == body]
         lowest = min((start.lows[geom] for geom in own), default=0.0)
-        height = max(float(start.heights[row]) - lowest, 1e-9)
+        height = max(float(start.heights[row]) - lowest, DRIFT)
+        sunk = float(start.heights[row] - end.heights[row])
+        low = min((end.lows[geom] for geom in own), default=0.0)
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, body) or body
         found.append(
             BaseMotion(
@@ -286,7 +288,8 @@ def _measure_bases(mujoco: Any, model: Any, data: Any, poses: list[_Pose]) -> li
                 tilt=tilts[-1],
                 lean=abs(extrapolate(tilts)),
                 sink=-float(moves[-1][2]),
-                drop=float(start.heights[row] - end.heights[row]) / height,
+                drop=sunk / height,
+                shrinking=float(sunk + low - lowest) / height,
                 resting=tuple(_list_resting_bodies(mujoco, model, data, start, own, body, lowest)),
             )
         )
