@@ -178,11 +178,11 @@ class Motion:
         """Tell whether the robot stands; on a fixed base, whether its joints stay."""
         return (
             self.is_finite
-            and all(map(self._carries, self.bases))
+            and all(map(self._is_standing, self.bases))
             and not any(joint for joint in self.sagging if not joint.is_carried)
         )
 
-    def _carries(self, base: BaseMotion) -> bool:
+    def _is_standing(self, base: BaseMotion) -> bool:
         return (
             base.lean <= self.bounds.lean
             and base.slide <= self.bounds.slide
@@ -194,7 +194,7 @@ class Motion:
     def worst(self) -> BaseMotion | None:
         """Return the base that moves most; None without a free body."""
         return max(
-            self.bases, key=lambda base: (not self._carries(base), base.excess), default=None
+            self.bases, key=lambda base: (not self._is_standing(base), base.excess), default=None
         )
 
     @property
@@ -215,7 +215,7 @@ class Motion:
     def describe_base(self) -> Iterator[str]:
         """Describe the base that moves most, if it does not stand or stay."""
         base = self.worst
-        if base is None or not self.is_finite or (base.stays and self._carries(base)):
+        if base is None or not self.is_finite or (base.stays and self._is_standing(base)):
             return
         moved = f"{base.name} moves by {base.drift:.2g} m and tilts by {base.tilt:.2g}°"
         if base.tilt > FALLEN or base.drop > FALLEN_DROP:
@@ -235,7 +235,7 @@ class Motion:
 
     def describe_joints(self) -> Iterator[tuple[str, bool]]:
         """Describe the joint that sags most, unless its base falls; tell whether it is held."""
-        if not all(map(self._carries, self.bases)):
+        if not all(map(self._is_standing, self.bases)):
             return
         for joint in self.sagging[:1]:
             what = "stands, its joints sag by up to" if joint.is_carried else "joints move by up to"

@@ -64,7 +64,7 @@ def judge(robot: Robot, run: Run, *, strict: bool = False) -> Verdict:
     rest = measure_final_state(run)
     motion = measure_run_motion(run)
     faults = [_replace_cause(run, fault) for fault in _report_faults(robot, run, rest)]
-    faults = [_spare_base(fault, motion, run) for fault in faults]
+    faults = [_mark_spared_base(fault, motion, run) for fault in faults]
     if not motion.stands and not any(fault.fell for fault in faults):
         faults.append(_report_motion(robot, run, motion))
     if strict:
@@ -73,8 +73,8 @@ def judge(robot: Robot, run: Run, *, strict: bool = False) -> Verdict:
     return Verdict(run, rest, motion, faults)
 
 
-def _spare_base(fault: Fault, motion: Motion, run: Run) -> Fault:
-    """Note that the base stands in spite of a fault; a robot that stays and creeps has none."""
+def _mark_spared_base(fault: Fault, motion: Motion, run: Run) -> Fault:
+    """Mark that the base stands in spite of a fault; a robot that stays and creeps has none."""
     is_short = run.recording.times[-1] < run.thresholds.settle_min_time
     moves = fault.code == "not-settled"
     if fault.code not in MOVES or not motion.stands or (moves and is_short):
