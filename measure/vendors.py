@@ -182,7 +182,7 @@ def describe_feet(model: Any) -> str:
     """Describe the contact of the lowest collision geoms."""
     import mujoco
 
-    from urdftool.formats.mjcf.verify_runs import list_low_points
+    from urdftool.formats.mjcf.model_motion import list_low_points
 
     data = pose_at_key(model)
     lows = dict(list_low_points(mujoco, model, data))

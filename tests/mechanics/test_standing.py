@@ -7,11 +7,11 @@ from urdftool.mechanics.standing import (
     Bounds,
     JointMotion,
     Motion,
-    extrapolate,
+    estimate_end,
     get_nudge_side,
 )
 
-BOUNDS = Bounds.for_size(1.0)
+BOUNDS = Bounds.make_for_size(1.0)
 
 
 def motion(joints=(), bases=None, **base):
@@ -64,8 +64,8 @@ def test_joints_of_a_robot_that_falls_are_not_said_to_sag():
 
 def test_a_slide_is_measured_by_the_size_of_the_robot():
     finger = [JointMotion("finger", 0.02, is_slide=True)]
-    assert Motion([], finger, bounds=Bounds.for_size(1.0)).stands
-    assert not Motion([], finger, bounds=Bounds.for_size(0.2)).stands
+    assert Motion([], finger, bounds=Bounds.make_for_size(1.0)).stands
+    assert not Motion([], finger, bounds=Bounds.make_for_size(0.2)).stands
 
 
 def test_a_simulation_that_is_not_finite_does_not_stand():
@@ -83,7 +83,7 @@ def test_a_simulation_that_is_not_finite_does_not_stand():
     ],
 )
 def test_a_motion_goes_on_as_it_slows_down(values, end):
-    assert extrapolate(values) == pytest.approx(end)
+    assert estimate_end(values) == pytest.approx(end)
 
 
 def test_gravity_tilts_to_both_sides():

@@ -3,7 +3,7 @@
 A robot stands if its base, from the start of a simulation to its end, and as far as its motion at
 the end goes on, does not lean, slide away or sink, and if nothing else comes to rest on the ground.
 A robot on a fixed base stands if its joints stay. Joints that sag on a free base that stands are
-named beside it. Tests of this module are of numbers; the caller measures them in its engine.
+named. Tests of this module are of numbers; the caller measures them in its engine.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def get_nudge_side(time: float) -> int:
     return (1 if time < NUDGE else -1) if time < 2 * NUDGE else 0
 
 
-def extrapolate(values: Sequence[float]) -> float:
+def estimate_end(values: Sequence[float]) -> float:
     """Return where a value goes from the end of a window within the horizon.
 
     The rate changes in each half of a window by the same factor, but does not grow. A value that
@@ -152,7 +152,7 @@ class Bounds:
     length: float = SAG_SLIDE
 
     @classmethod
-    def for_size(cls, size: float) -> Bounds:
+    def make_for_size(cls, size: float) -> Bounds:
         """Return the bounds for a robot of a size [m]."""
         return cls(slide=SLIDE * size, length=SAG_SLIDE * size)
 

@@ -16,7 +16,7 @@ from ..mechanics.standing import (
     Bounds,
     JointMotion,
     Motion,
-    extrapolate,
+    estimate_end,
 )
 from ..model.pose import rotation_from_quaternion
 from .checks.final_state import measure_tilt
@@ -73,9 +73,9 @@ def _measure_base(run: Run, samples: list[int]) -> BaseMotion:
     return BaseMotion(
         THE_BASE,
         drift=float(np.linalg.norm(moves[-1])),
-        slide=abs(extrapolate(np.linalg.norm(moves[:, :2], axis=1).tolist())),
+        slide=abs(estimate_end(np.linalg.norm(moves[:, :2], axis=1).tolist())),
         tilt=tilts[-1],
-        lean=abs(extrapolate(tilts)),
+        lean=abs(estimate_end(tilts)),
         sink=-float(moves[-1, 2]),
         drop=drop,
         shrinking=shrinking,

@@ -108,7 +108,7 @@ def test_the_lowest_point_of_a_turned_shape_is_exact(shape, low):
     """Of shapes that are turned by 60° about y, beside a plane that is not counted."""
     import mujoco
 
-    from urdftool.formats.mjcf.verify_runs import compute_lowest_point
+    from urdftool.formats.mjcf.model_motion import compute_lowest_point
 
     model = mujoco.MjModel.from_xml_string(
         '<mujoco><compiler angle="radian"/><worldbody><geom type="plane" size="0 0 1"/>'
