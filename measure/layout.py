@@ -24,7 +24,7 @@ from pathlib import Path
 from measure.benchmarks.robots import CORPUS, example_folder, manifest
 from urdftool import expand
 from urdftool.errors import UrdftoolError
-from urdftool.fmt.equality import list_events
+from urdftool.fmt.run import list_events
 from urdftool.fmt.layout import format_xml
 from urdftool.fmt.run import format_file
 from urdftool.source.document import parse

@@ -8,9 +8,8 @@ from hypothesis import strategies as st
 
 from tests.conftest import FIXTURES
 from urdftool.fmt.discover import find_files
-from urdftool.fmt.equality import list_events
 from urdftool.fmt.layout import format_xml
-from urdftool.fmt.run import format_file
+from urdftool.fmt.run import format_file, list_events
 from urdftool.source.location import SourceFile
 
 CASES = {

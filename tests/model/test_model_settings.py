@@ -9,7 +9,7 @@ from tests.cases import list_cases
 from urdftool.compare.compare import compare_robots
 from urdftool.model.load import load
 from urdftool.model.settings import SURFACE, TABLES, get_number
-from urdftool.simulation.surface import choose_surface
+from urdftool.simulation.rigid_bodies import choose_surface
 
 TENSOR = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 INERTIAL = f'<inertial><mass value="1"/>{TENSOR}</inertial>'

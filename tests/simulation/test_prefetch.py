@@ -14,7 +14,7 @@ from urdftool.model.load import load
 from urdftool.simulation import mesh_cache
 from urdftool.simulation.checks import interpenetration
 from urdftool.simulation.checks.interpenetration import precompute_overlaps
-from urdftool.simulation.prefetch import prefetch
+from urdftool.simulation.run import prefetch
 from urdftool.simulation.settings import Settings
 from urdftool.simulation.verdict import judge
 

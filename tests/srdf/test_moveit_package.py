@@ -10,7 +10,7 @@ import yaml
 
 from urdftool.model.load import load
 from urdftool.srdf.moveit.distributions import DISTRIBUTIONS
-from urdftool.srdf.moveit.launch_files import LAUNCHES
+from urdftool.srdf.moveit.package import LAUNCHES
 
 from .moveit_loader import MoveItConfigs, list_undeclared
 from .small_robots import ARM, FINGERS, WHEELS, prefix_lines, write_urdf

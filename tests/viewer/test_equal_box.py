@@ -8,7 +8,7 @@ from urdftool.model.elements import Inertia, Inertial, Origin
 from urdftool.model.pose import make_pose
 from urdftool.source.document import Element
 from urdftool.source.location import SourceFile
-from urdftool.viewer.inertia_box import compute_inertia_box
+from urdftool.viewer.robot_scene import compute_inertia_box
 
 NOWHERE = Element("inertial", {}, None, SourceFile("-", b""), 0, ())
 EDGE = st.floats(0.01, 5)

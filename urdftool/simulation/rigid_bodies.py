@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -13,13 +13,44 @@ from ..model.actuation import find_actuated_joints
 from ..model.elements import ZERO, Joint, Link, Robot
 from ..model.kinematics import find_movable_joints, get_limits, link_poses
 from ..model.pose import IDENTITY, Pose, make_pose
+from ..model.settings import get_number
 from ..model.start import start_positions
 from .control import NONE
 from .recording import Array
 from .settings import Settings
 from .shapes import Shape, make_shapes
 from .spawn import spawn_pose
-from .surface import Surface, choose_surface
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Contact parameters of a body; None for values that the file does not set.
+
+    Attributes:
+        friction: Coulomb friction coefficient [–] in the first direction.
+        stiffness: Contact stiffness [N/m].
+        damping: Contact damping [N·s/m].
+    """
+
+    friction: float | None = None
+    stiffness: float | None = None
+    damping: float | None = None
+
+
+def choose_surface(robot: Robot, links: Iterable[str]) -> Surface:
+    """Return the contact parameters of a rigid body of several links.
+
+    Engines have one set for a body: if its collisions differ, the smallest of each is used.
+    """
+    surfaces = [shape.surface for name in links for shape in robot.link[name].collisions]
+
+    def least(name: str) -> float | None:
+        values = (get_number(surface, name) for surface in surfaces)
+        return min((v for v in values if v is not None and v >= 0), default=None)
+
+    stiffness = least("contact_stiffness")
+    return Surface(least("friction"), stiffness or None, least("contact_damping"))
+
 
 TENSOR_ROUNDING = 0.01
 """Relative violation of the triangle inequality by rounding [1]; engines get a valid tensor."""

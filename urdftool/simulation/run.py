@@ -6,21 +6,24 @@ import math
 import random
 import tempfile
 from collections.abc import Callable, Hashable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from queue import SimpleQueue
+from threading import Thread
+from typing import TypeVar
 
 import numpy as np
 
 from ..errors import ModelError
-from ..model.elements import Robot
+from ..model.elements import Mesh, Robot
 from ..model.pose import rotation_from_quaternion
 from .checks.thresholds import Thresholds
 from .engine_process import EngineProcess
 from .engines.base import ExportMjcf
 from .engines.registry import REGISTRY, get_library, load_engine
-from .prefetch import prefetch
+from .mesh_cache import get_outermost_points
 from .prepare import prepare
 from .recording import Array, Contact, Recording, Swept
 from .rigid_bodies import RigidBodyModel
@@ -191,3 +194,45 @@ def make_trials(settings: Settings) -> list[Settings]:
         rpy = (tilt * math.cos(toward), tilt * math.sin(toward), yaw)
         found.append(replace(settings, start_rpy=rpy))
     return found
+
+
+T = TypeVar("T")
+
+
+@contextmanager
+def prefetch(robot: Robot, precompute: Callable[[T], object]) -> Iterator[Callable[[T], None]]:
+    """Read the visual meshes of a robot in a thread, then precompute from the first message.
+
+    Errors are ignored: the check that needs the result computes it again, and reports them.
+
+    Yields:
+        Function that passes the message, once. The thread has ended at the end of the ``with``
+        statement, unless that raised an error.
+    """
+    messages: SimpleQueue[tuple[T] | None] = SimpleQueue()
+
+    def work() -> None:
+        with suppress(Exception):
+            prefetch_visuals(robot)
+        first = messages.get()
+        if first is not None:
+            with suppress(Exception):
+                precompute(*first)
+
+    thread = Thread(target=work, daemon=True)
+    with suppress(RuntimeError):  # the thread limit of the system is reached
+        thread.start()
+    try:
+        yield lambda first: messages.put((first,))
+    finally:
+        messages.put(None)
+    if thread.ident is not None:
+        thread.join()
+
+
+def prefetch_visuals(robot: Robot) -> None:
+    """Read the meshes of the visuals."""
+    for link in robot.links:
+        for visual in link.visuals:
+            if isinstance(visual.geometry, Mesh):
+                get_outermost_points(robot, visual.geometry)

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..diagnostic import Severity
 from ..finding import Finding
-from ..model.elements import Joint, Robot, Vector
+from ..mechanics.tensor import compute_principal_axes, compute_second_moment
+from ..model.elements import Inertial, Joint, Robot, Vector
 from ..model.kinematics import MOVABLE, compute_motion
 from ..model.pose import IDENTITY, Pose, Quaternion, make_pose, quaternion_from_rotation
-from .inertia_box import compute_inertia_box
 from .marks import format_counts
 from .properties import shorten_name
 from .render_mesh import RenderMesh, compute_link_boxes, list_render_meshes
@@ -328,3 +329,47 @@ def replace_invalid_pose(pose: Pose) -> Pose:
 def to_quaternion(pose: Pose) -> Quaternion:
     """Return the rotation of a pose as a quaternion in the scene's order (w, x, y, z)."""
     return quaternion_from_rotation(pose.rotation)
+
+
+@dataclass(frozen=True)
+class InertiaBox:
+    """A box in the frame of its link.
+
+    Attributes:
+        size: Edges [m].
+        pose: Pose of its center, along its edges.
+        possible: Whether the inertia is physically consistent; if not, an edge whose square would
+            be negative has length 0.
+    """
+
+    size: Vector
+    pose: Pose
+    possible: bool
+
+
+def compute_inertia_box(inertial: Inertial | None) -> InertiaBox | None:
+    """Compute the box of uniform density with the mass and inertia of a link.
+
+    The edge along a principal axis is √(12 s / m), with s = ∫ x² dm the second moment, which is m
+    a² / 12 for a box of edge a.
+
+    Returns:
+        None if mass or inertia is missing, not positive or not finite.
+    """
+    if inertial is None or inertial.inertia is None or not inertial.mass:
+        return None
+    pose = make_pose(inertial.origin)
+    numbers = (*inertial.inertia.six, inertial.mass, *pose.translation, *pose.rotation[0])
+    if (
+        inertial.mass < 0
+        or not all(map(math.isfinite, numbers))
+        or not any(inertial.inertia.moments)
+    ):
+        return None
+    moments, axes = compute_principal_axes(compute_second_moment(inertial.inertia.six))
+    squares = 12.0 * moments / inertial.mass
+    x, y, z = (float(edge) for edge in np.sqrt(np.maximum(squares, 0.0)))
+    rows = axes.tolist()
+    turned = Pose((tuple(rows[0]), tuple(rows[1]), tuple(rows[2])), (0.0, 0.0, 0.0))
+    possible = bool(squares.min() >= -1e-9 * squares.max())
+    return InertiaBox((x, y, z), pose @ turned, possible)

@@ -9,9 +9,16 @@ from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ...model.mujoco_values import READER_SETTINGS, SECTIONS, describe_required_setting
 from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import Pose, quaternion_from_rotation
 from ...model.world_settings import OF_MUJOCO
+from ...rules.simulation.mujoco_values import (
+    READER_SETTINGS,
+    SECTIONS,
+    describe_required_setting,
+)
+from ...source.document import Element
 from ..common.naming import UniqueNames
 from ..written import Written
 from .actuator import build_actuator_section
@@ -21,7 +28,6 @@ from .copied import has_copied_actuators
 from .defaults import build_default_section
 from .document import assemble, report_losses
 from .equality import build_equality_section
-from .extension import apply_extension
 from .frame import simplify_quaternion
 from .fuse import fuse_links
 from .gazebo import get_attributes, report_gazebo_losses
@@ -269,3 +275,50 @@ def _get_positions(structure: Structure, home: Home) -> list[float]:
 def _collect_free(pose: Pose) -> list[float]:
     turn = simplify_quaternion(quaternion_from_rotation(pose.rotation)) or (1.0, 0.0, 0.0, 0.0)
     return [*pose.translation, *turn]
+
+
+def apply_extension(robot: Robot, sections: dict[str, etree._Element], written: Written) -> None:
+    """Copy ``<compiler>``, ``<option>`` and other known elements to the sections, by name."""
+    for extension in () if robot.xml is None else robot.xml.list_children("mujoco"):
+        for child in extension.children:
+            if child.tag == "compiler":
+                _add_compiler(child, sections, written)
+            elif child.tag in SECTIONS:
+                target = sections.setdefault(child.tag, etree.Element(child.tag))
+                _merge(child, target)
+            else:
+                written.report_loss(
+                    "mujoco",
+                    f"<{child.tag}> in <mujoco> is not exported; only compiler, "
+                    + ", ".join(SECTIONS),
+                    child.place,
+                    kind="mujoco",
+                    name=child.tag,
+                )
+
+
+def _add_compiler(element: Element, sections: dict[str, etree._Element], written: Written) -> None:
+    for name, value in element.attributes.items():
+        if name not in READER_SETTINGS:
+            if not describe_required_setting(element, name):
+                sections["compiler"].set(name, value)
+            continue
+        changes = name in ("balanceinertia", "boundmass", "boundinertia", "settotalmass")
+        written.report_loss(
+            "mujoco",
+            f"{name}={value!r} of <compiler> is not exported: it "
+            + ("changes the robot" if changes else "controls how MuJoCo reads URDF"),
+            element.locate_attribute(name),
+            kind="mujoco",
+            name=name,
+            severity=Severity.WARNING if changes and value != "false" else Severity.INFO,
+        )
+
+
+def _merge(element: Element, target: etree._Element) -> None:
+    for name, value in element.attributes.items():
+        if not describe_required_setting(element, name):
+            target.set(name, value)
+    for child in element.children:
+        found = target.find(child.tag)
+        _merge(child, etree.SubElement(target, child.tag) if found is None else found)

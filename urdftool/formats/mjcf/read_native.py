@@ -18,7 +18,6 @@ from ...source.document import Element, parse
 from ...source.location import SourceFile
 from .read_compile import Row
 from .read_context import Context
-from .read_defaults import Defaults
 from .read_native_table import CLASSES, COPIED, HELD_VALUES, KINDS, MERGED, PARTS, READ, READ_IN
 from .read_tree import VELOCITY
 
@@ -317,3 +316,38 @@ def _report_merged(context: Context, section: Element, setting: str) -> None:
             _report(context, setting, f"{attribute} of <option>", written)
         return
     _report(context, "display", f"<{section.tag}>", written)
+
+
+_MAIN = ""
+
+
+class Defaults:
+    """Attributes by class and tag."""
+
+    def __init__(self, root: Element) -> None:
+        """Read the classes of a model."""
+        self.root = root
+        self._found: dict[str, dict[str, dict[str, str]]] = {_MAIN: {}}
+        for child in root.children:
+            if child.tag == "default":
+                self._add(child, _MAIN, _MAIN)
+
+    def _add(self, element: Element, name: str, parent: str) -> None:
+        own = self._found[name] = {t: dict(a) for t, a in self._found[parent].items()}
+        for child in element.children:
+            if child.tag != "default":
+                own.setdefault(child.tag, {}).update(child.attributes)
+        for child in element.children:
+            if child.tag == "default":
+                self._add(child, child.get("class") or _MAIN, name)
+
+    def resolve(self, element: Element) -> dict[str, str]:
+        """Return the attributes of an element, with those of its class or its body's."""
+        given = self._found.get(self._find_class(element), self._found[_MAIN])
+        return given.get(element.tag, {}) | element.attributes
+
+    def _find_class(self, element: Element) -> str:
+        own, body = element.get("class"), element.parent
+        while own is None and body is not None:
+            own, body = body.get("childclass"), body.parent
+        return own or _MAIN

@@ -7,16 +7,16 @@ import math
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Vector
 from ...model.numbers import format_numbers_text, number_text
-from ...model.pose import compute_cross, compute_norm
+from ...model.pose import IDENTITY, compute_cross, compute_norm
 from ...model.settings import MAGNITUDES, RESISTANCE
 from ..common.actuator_config import JointSettings
 from ..common.missing_bounds import explain_missing_bounds
 from .extensions import convert_joint_extensions, report_dissolved_joint
+from .frames import get_parent_frame
 from .inertials import WEIGHTLESS
-from .joint_base import get_axis, start
 from .joint_settings import get_effort
 from .native import merge_native
-from .pose import set_pose
+from .pose import set_origin, set_pose
 from .sensors import add_joint_sensors
 from .translation import Translation
 from .xml import Node, add, append_comment, get_or_create
@@ -259,3 +259,26 @@ def _add_between(model: Node, t: Translation, part: Joint, name: str, joint: str
     inertia = add(inertial, "inertia")
     for term in ("ixx", "iyy", "izz"):
         add(inertia, term, number_text(WEIGHTLESS * 1e-6))
+
+
+def start(model: Node, t: Translation, part: Joint, name: str, kind: str) -> Node:
+    """Add a joint with its parent, child and pose."""
+    node = add(model, "joint", name=name, type=kind)
+    anchored = t.plan.anchored and part.parent == "world"
+    parent = "world" if anchored else t.names.link(t.plan.owner[part.parent])
+    add(node, "parent", parent)
+    add(node, "child", t.names.link(t.plan.owner[part.child]))
+    if t.options.is_at_least("1.7"):
+        set_origin(node, part.origin, get_parent_frame(t, part), t.options.is_at_least("1.9"))
+    else:  # SDF 1.6 expresses the pose in the frame of the child link
+        set_pose(node, t.plan.in_owner.get(part.child, IDENTITY))
+    return node
+
+
+def get_axis(part: Joint) -> Vector:
+    """Return the axis, scaled to unit length unless it is so within 1e-12."""
+    xyz = part.axis.xyz if part.axis is not None else (1.0, 0.0, 0.0)
+    length = compute_norm(xyz)
+    if abs(length - 1.0) <= 1e-12 or length == 0.0:
+        return xyz
+    return xyz[0] / length, xyz[1] / length, xyz[2] / length

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import PurePath
 
 from lxml import etree
 
+from ...diagnostic import Severity
 from ...finding import Finding
 from ...lint.validate import validate
 from ...mechanics.spatial_inertia import link_inertia
 from ...mechanics.tensor import WRITTEN_ROUNDING, get_excess
 from ...model.elements import Link, Mesh, Robot
-from ...model.world import WORLD
+from ...model.mechanism import Base
+from ...model.start import start_positions
+from ...model.world import WORLD, find_model_origin, weld_base
+from ..common.base import decide_base
 from ..common.directory import mark
 from ..common.force_fallbacks import (
     FATAL,
@@ -22,16 +27,17 @@ from ..common.force_fallbacks import (
     report_tree_defects,
 )
 from ..common.missing_files import create_missing_mesh
+from ..common.rigid_tree import group_rigid_links
+from ..common.shape_box import ShapeBoxes
 from ..defects import FATAL as STRUCTURAL
 from ..defects import Refused, make_defect, refuse
 from ..written import Written
-from .base import apply_base
 from .joint_settings import choose_joint_settings
 from .mesh_files import MeshFiles, find_meshes
 from .model import add_model
 from .names import get_model_name, make_names
 from .native import report_uncopied
-from .options import MODEL, Options
+from .options import MODEL, ChosenBase, Options
 from .plan import Plan, make_plan
 from .start import place_on_ground, report_start
 from .translation import Translation
@@ -179,3 +185,30 @@ def report_inertia_defects(robot: Robot, plan: Plan) -> Iterator[Finding]:
 def _compute_own_shortfall(link: Link) -> float:
     body = link_inertia(link)
     return get_excess(body.tensor, body.mass)
+
+
+def apply_base(robot: Robot, base: ChosenBase, written: Written) -> Robot:
+    """Return the robot with a joint to the world if its base is fixed by ``base``.
+
+    Args:
+        robot: The source; without a choice, or with several roots, it is returned as it is.
+        base: The choice; ``auto`` decides as exports to MJCF and USD do.
+        written: Receives a note about the joint, or about a base that is free.
+    """
+    roots = robot.tree.roots
+    if base == "" or base == "free" or len(roots) != 1 or roots[0].name == WORLD:
+        return robot
+    tree = group_rigid_links(robot, lambda joint: not joint.is_fixed)
+    home, _ = start_positions(robot)
+    is_free, reason = decide_base(tree, base, None, ShapeBoxes(robot), home, written)
+    if is_free:
+        return robot
+    written.report_loss(
+        "welded-base",
+        f"root link '{roots[0].name}' is fixed to the world: {reason}",
+        roots[0].place,
+        kind="link",
+        name=roots[0].name,
+        severity=Severity.INFO,
+    )
+    return weld_base(replace(robot, base=Base(robot.provenance, False, find_model_origin(robot))))

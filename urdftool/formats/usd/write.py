@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from pxr import Usd
+
 from ...diagnostic import Severity
 from ...lint.validate import validate
-from ...model.elements import Robot
+from ...model.elements import Joint, Robot
+from ...model.kinematics import follow_mimic_chain
 from ..common.naming import replace_file_name, shorten_file_name
 from ..common.srdf import read_srdf
 from ..defects import FATAL, refuse, report_defects, report_size, report_taken_world
@@ -16,19 +19,17 @@ from .contacts import list_overlaps, write_pairs, write_self_collision
 from .files import make_layered_files, make_single_file
 from .home import plan_home, plan_servos
 from .inertials import make_inertias
-from .isaac import write_isaac
 from .joint_values import choose_joint_values, read_joint_settings
 from .joints import JointWriter, report_unwritten_spring
 from .links import LinkWriter
 from .loops import write_closures, write_frames
 from .materials import FOLDER, MaterialWriter
 from .meshes import Meshes
-from .mimics import write_mimics
 from .names import Names, make_names
 from .options import Options
 from .planned import make_planned
 from .shapes import ShapeWriter
-from .stage import ISAAC, LAYERS, PHYSX, StageBuilder
+from .stage import ISAAC, LAYERS, PHYSX, StageBuilder, apply, set_targets, set_value
 from .surfaces import SurfaceWriter
 from .unexpressed import report_losses
 
@@ -156,3 +157,69 @@ def _report_names(bodies: Bodies, names: Names, written: Written) -> None:
             name=old,
             severity=Severity.INFO,
         )
+
+
+def write_isaac(links: LinkWriter, joints: JointWriter) -> None:
+    """Apply the schemas of Isaac Sim; the first link is the base."""
+    builder, bodies = links.builder, links.bodies
+    order = sorted(bodies.links, key=lambda link: link.name != bodies.base)
+    with builder.edit_layer(ISAAC):
+        for link in order:
+            _name(builder.stage.GetPrimAtPath(links.get_path(link.name)), "Link", link.name)
+        written = [joint for joint in bodies.joints if joint.type != "floating"]
+        for joint in written:
+            _name(builder.stage.GetPrimAtPath(joints.get_path(joint.name)), "Joint", joint.name)
+        apply(builder.prim, "IsaacRobotAPI")
+        paths = [links.get_path(link.name) for link in order]
+        set_targets(builder.prim, "isaac:physics:robotLinks", paths)
+        root = builder.root.AppendPath("joints/root_joint")
+        own = [root] if builder.stage.GetPrimAtPath(root) else []
+        paths = [*own, *(joints.get_path(joint.name) for joint in written)]
+        set_targets(builder.prim, "isaac:physics:robotJoints", paths)
+
+
+def _name(prim: Usd.Prim, kind: str, name: str) -> None:
+    apply(prim, f"Isaac{kind}API")
+    if prim.GetName() != name:
+        set_value(prim, "isaac:nameOverride", "string", name)
+
+
+_MOVABLE = ("revolute", "continuous", "prismatic")
+
+
+def write_mimics(writer: JointWriter) -> None:
+    """Write each ``<mimic>`` whose follower and leader move; report the others."""
+    bodies = writer.bodies
+    movable = {j.name: j for j in bodies.joints if j.type in _MOVABLE and bodies.is_movable(j)}
+    for joint in bodies.robot.joints:
+        if joint.mimic is None:
+            continue
+        reason = _find_obstacle(joint, movable)
+        leader, factor, offset = joint.name, 1.0, 0.0
+        if not reason:
+            leader, factor, offset = follow_mimic_chain(joint, movable)
+            follows = movable[leader].mimic
+            if leader == joint.name or (follows is not None and follows.joint in movable):
+                reason = "it follows itself"
+        if reason:
+            writer.written.report_loss(
+                "mimic",
+                f"<mimic> of joint '{joint.name}' is dropped: {reason}",
+                joint.mimic.place,
+                kind="joint",
+                name=joint.name,
+            )
+        else:
+            writer.write_mimic(joint, leader, factor, offset)
+
+
+def _find_obstacle(joint: Joint, movable: dict[str, Joint]) -> str:
+    """Return why a joint cannot follow its leader; empty if it can."""
+    assert joint.mimic is not None
+    if joint.name not in movable:
+        return f"a joint of type {joint.type} has no position that could follow"
+    if not joint.mimic.joint:
+        return "it names no joint"
+    if joint.mimic.joint not in movable:
+        return f"joint '{joint.mimic.joint}' does not exist or has no position"
+    return ""

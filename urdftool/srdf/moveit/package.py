@@ -31,7 +31,6 @@ from .description_files import (
     make_mock_hardware,
 )
 from .existing_srdf import SrdfChanges
-from .launch_files import make_launch_files
 from .package_files import (
     make_assistant_settings,
     make_build_file,
@@ -217,3 +216,34 @@ def _complete_moveit(
         if listed.items is None:
             raise ConfigError("controller_names is not a list", at=listed.place)
         yield f"controller_names: {', '.join(lacking)}", append_items(listed, lacking)
+
+
+LAUNCHES = (
+    "demo",
+    "move_group",
+    "moveit_rviz",
+    "rsp",
+    "setup_assistant",
+    "spawn_controllers",
+    "static_virtual_joint_tfs",
+    "warehouse_db",
+)
+"""Launch files that ``moveit_configs_utils.launches`` makes, by the name of its function.
+``generate_demo_launch`` includes six of them by these names."""
+
+_TEXT = """\
+from moveit_configs_utils import MoveItConfigsBuilder
+from moveit_configs_utils.launches import generate_{name}_launch
+
+
+def generate_launch_description():
+    builder = MoveItConfigsBuilder({stem!r}, package_name={package!r})
+    return generate_{name}_launch(builder.to_moveit_configs())
+"""
+
+
+def make_launch_files(configuration: Configuration) -> Iterator[tuple[str, str]]:
+    """Yield the path in the package and the text of each launch file."""
+    for name in LAUNCHES:
+        text = _TEXT.format(name=name, stem=configuration.stem, package=configuration.package)
+        yield f"launch/{name}.launch.py", text
