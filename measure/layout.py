@@ -24,9 +24,8 @@ from pathlib import Path
 from measure.benchmarks.robots import CORPUS, example_folder, manifest
 from urdftool import expand
 from urdftool.errors import UrdftoolError
-from urdftool.fmt.run import list_events
 from urdftool.fmt.layout import format_xml
-from urdftool.fmt.run import format_file
+from urdftool.fmt.run import format_file, list_events
 from urdftool.source.document import parse
 from urdftool.source.location import SourceFile
 

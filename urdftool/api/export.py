@@ -64,6 +64,7 @@ def export_sdf(
             version.
         OutputError: A file cannot be written; previous contents are unchanged.
     """
+    choices = {**locals()}  # the arguments by name
     from ..formats.common.option import make_options
     from ..formats.export import finish_export
     from ..formats.registry import format_named
@@ -71,18 +72,6 @@ def export_sdf(
     from .overlaps import find_overlaps
     from .plugin_checks import check_plugins
 
-    choices = {
-        "target": target,
-        "version": version,
-        "fixed_joints": fixed_joints,
-        "uri": uri,
-        "base": base,
-        "world": world,
-        "fix_inertia": fix_inertia,
-        "mesh_dir": mesh_dir,
-        "actuator_config": actuator_config,
-        "force": force,
-    }
     folder, file = get_folder_and_file(output or robot.name or "robot")
     options = make_options(Options, choices, folder=folder, file=file, overlaps=find_overlaps)
     sdf, robot = format_named("sdf"), robot if base == "free" else weld_base(robot)
@@ -167,6 +156,7 @@ def export_mjcf(
         OutputError: A file cannot be written, or MuJoCo cannot compile it; previous contents are
             unchanged.
     """
+    choices = {**locals()}  # the arguments by name
     from ..formats.common.option import make_options
     from ..formats.export import finish_export
     from ..formats.mjcf.options import Options
@@ -176,25 +166,6 @@ def export_mjcf(
 
     mjcf, robot = format_named("mjcf"), weld_base(robot)
     name = Path(output).name if output is not None else ""
-    choices = {
-        "actuators": actuators,
-        "timestep": timestep,
-        "base": base,
-        "scene": scene,
-        "srdf": srdf,
-        "fix_inertia": fix_inertia,
-        "decompose": decompose,
-        "keep_locked_joints": keep_locked_joints,
-        "pose": pose,
-        "base_sensors": base_sensors,
-        "actuator_config": actuator_config,
-        "armature": armature,
-        "exclude": exclude,
-        "purpose": purpose,
-        "fuse": fuse,
-        "mesh_dir": mesh_dir,
-        "force": force,
-    }
     proofs = prove_srdf_pairs(robot, srdf)
     options = make_options(
         Options,

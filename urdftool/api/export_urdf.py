@@ -46,6 +46,7 @@ def export_urdf(
         ModelError: The robot has errors that prevent writing it; ``notes`` lists the others.
         OutputError: A file cannot be written; previous contents are unchanged.
     """
+    choices = {**locals()}  # the arguments by name
     from ..formats.common.option import make_options
     from ..formats.export import finish_export
     from ..formats.registry import format_named
@@ -53,13 +54,6 @@ def export_urdf(
 
     is_file = output is not None and Path(output).suffix.lower() == ".urdf"
     file = Path(output).name if output is not None and is_file else ""
-    choices = {
-        "root": root,
-        "frames": frames,
-        "hardware": hardware,
-        "mesh_dir": mesh_dir,
-        "force": force,
-    }
     options = make_options(Options, choices, file=file, srdf=srdf)
     urdf = format_named("urdf")
     written = urdf.write(robot, options)

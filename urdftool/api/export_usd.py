@@ -68,6 +68,7 @@ def export_usd(
         ModelError: The robot has errors that prevent writing it; ``notes`` lists the others.
         OutputError: A file cannot be written; previous contents are unchanged.
     """
+    choices = {**locals()}  # the arguments by name
     from ..extras import require
     from ..formats.common.option import make_options
     from ..formats.export import finish_export
@@ -78,21 +79,6 @@ def export_usd(
     from .pair_proofs import prove_srdf_pairs
     from .plugin_checks import check_plugin_names
 
-    choices = {
-        "target": target,
-        "layers": layers,
-        "base": base,
-        "srdf": srdf,
-        "pose": pose,
-        "actuators": actuators,
-        "timestep": timestep,
-        "self_collision": self_collision,
-        "actuator_config": actuator_config,
-        "approximation": approximation,
-        "decompose": decompose,
-        "fix_inertia": fix_inertia,
-        "force": force,
-    }
     usd = format_named("usd")
     file = Path(output).name if output is not None and usd.has_suffix(output) else ""
     require("export_usd", "pxr")

@@ -76,7 +76,12 @@ class Disagreement:
 
 @dataclass
 class Agreement:
-    """Result of the comparison of several robots."""
+    """Result of the comparison of several robots.
+
+    Attributes:
+        rows: Compared properties.
+        pairs: Comparison of each pair, by the numbers of the robots.
+    """
 
     rows: tuple[Row, ...]
     pairs: dict[tuple[int, int], Comparison]

@@ -6,10 +6,13 @@ export added is not called equal to the source.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 
 from ...compare.check import Check
 from ...model.elements import Robot
+
+_Parts = Sequence[tuple[Hashable, str]]
+"""Keys and names of parts."""
 
 DYNAMICS = ("armature", "damping", "friction")
 """Properties of a joint that options of the export set."""
@@ -17,23 +20,43 @@ DYNAMICS = ("armature", "damping", "friction")
 
 def announce_additions(checks: Sequence[Check], source: Robot, planned: Robot) -> None:
     """Announce in each row what the export adds to the source."""
+    sides = source, planned
+    drives = [[(one.joint, one.joint) for one in robot.joint_actuators] for robot in sides]
+    states = [[(one.name, one.name) for one in robot.configurations] for robot in sides]
+    pairs = [
+        [
+            (frozenset((pair.link, pair.other)), f"{pair.link} and {pair.other}")
+            for pair in robot.exclusions
+        ]
+        for robot in sides
+    ]
     rows = {
-        "limits": _list_added_efforts(source, planned),
-        "joint physics": (
-            *list_added_dynamics(source, planned),
-            *_list_added_stops(source, planned),
-        ),
-        "sensors": _list_added_sensors(source, planned),
-        "surface": _list_added_contact(source, planned),
-        "actuators": list_added_actuators(source, planned),
-        "contact pairs": _list_added_exclusions(source, planned),
-        "configurations": _list_added_configurations(source, planned),
+        "limits": _list_added_efforts(*sides),
+        "joint physics": (*_list_added_dynamics(*sides), *_list_added_stops(*sides)),
+        "sensors": _list_added_sensors(*sides),
+        "surface": _list_added_contact(*sides),
+        "actuators": _compare_keys(*drives, " with kinds and gains of the export"),
+        "contact pairs": _compare_keys(*pairs),
+        "configurations": _compare_keys(*states),
     }
     for check in checks:
         check.announced += rows.get(check.name, ())
 
 
-def list_added_dynamics(source: Robot, planned: Robot) -> Iterator[str]:
+def _compare_keys(source: _Parts, planned: _Parts, remark: str = "") -> Iterator[str]:
+    """Yield a text with the parts of an export whose keys its source does not have."""
+    known = {key for key, _ in source}
+    return _describe("added", [name for key, name in planned if key not in known], remark)
+
+
+def _describe(what: str, names: Sequence[str], remark: str = "") -> Iterator[str]:
+    """Yield a text with the number of parts and the first name, if there are any."""
+    if names:
+        more = " and so on" if len(names) > 1 else ""
+        yield f"{what}: {len(names)}{remark} ('{names[0]}'{more})"
+
+
+def _list_added_dynamics(source: Robot, planned: Robot) -> Iterator[str]:
     """Yield a text for each property of joints that an export sets, with its largest value."""
     for name in DYNAMICS:
         values = {
@@ -69,38 +92,7 @@ def _list_added_efforts(source: Robot, planned: Robot) -> Iterator[str]:
         for joint in planned.joints
         if joint.name in source.joint.keys() - known and joint.get_magnitude("effort") is not None
     ]
-    if added:
-        yield f"effort limits added: {len(added)} ({_name_some(added)})"
-
-
-def list_added_actuators(source: Robot, planned: Robot) -> Iterator[str]:
-    """Yield a text with the actuators of joints for which a description gives no gains."""
-    known = {actuator.joint for actuator in source.joint_actuators}
-    added = [a.joint for a in planned.joint_actuators if a.joint not in known]
-    if added:
-        yield f"added: {len(added)} with kinds and gains of the export ({_name_some(added)})"
-
-
-def _list_added_exclusions(source: Robot, planned: Robot) -> Iterator[str]:
-    known = {frozenset((pair.link, pair.other)) for pair in source.exclusions}
-    added = [
-        f"{pair.link} and {pair.other}"
-        for pair in planned.exclusions
-        if frozenset((pair.link, pair.other)) not in known
-    ]
-    if added:
-        yield f"added: {len(added)} ({_name_some(added)})"
-
-
-def _list_added_configurations(source: Robot, planned: Robot) -> Iterator[str]:
-    known = {configuration.name for configuration in source.configurations}
-    added = [one.name for one in planned.configurations if one.name not in known]
-    if added:
-        yield f"added: {len(added)} ({_name_some(added)})"
-
-
-def _name_some(names: Sequence[str]) -> str:
-    return f"'{names[0]}'" + (" and so on" if len(names) > 1 else "")
+    return _describe("effort limits added", added)
 
 
 def _list_added_sensors(source: Robot, planned: Robot) -> Iterator[str]:
@@ -110,8 +102,7 @@ def _list_added_sensors(source: Robot, planned: Robot) -> Iterator[str]:
         for sensor in planned.mounted_sensors
         if not any(sensor.name == name or sensor.name.startswith(f"{name}_") for name in known)
     ]  # one sensor of the source may be several: imu_gyro, imu_accelerometer
-    if added:
-        yield f"added: {len(added)} ({_name_some(added)})"
+    return _describe("added", added)
 
 
 def _list_added_contact(source: Robot, planned: Robot) -> Iterator[str]:

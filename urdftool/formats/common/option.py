@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import Field, dataclass, fields
+from dataclasses import Field, dataclass, field, fields
 from pathlib import Path, PurePath
 from typing import Any, Literal, TypeVar, get_args
 
@@ -56,9 +56,13 @@ class Option:
     check: Callable[[str], str] | None = None
 
 
-def declare(help: str, **details: Any) -> Mapping[str, Any]:
-    """Return the metadata of a field of a dataclass that declares an :class:`Option`."""
-    return {_KEY: Option(help, **details)}
+def declare(default: Any, option: Option | str, **details: Any) -> Any:
+    """Return a field of a dataclass that is an option, declared as such or by its help."""
+    declared = Option(option, **details) if isinstance(option, str) else option
+    metadata = {_KEY: declared}
+    if declared.kind is dict:
+        return field(default_factory=dict, metadata=metadata)
+    return field(default=default, metadata=metadata)
 
 
 def list_options(options: Any) -> Iterator[tuple[Field[Any], Option]]:
@@ -134,27 +138,27 @@ def parse_mesh_folder(value: str) -> str:
     return folder.as_posix()
 
 
-FORCE = declare("Export despite errors, if a usable robot remains.", kind=bool)
+FORCE = Option("Export despite errors, if a usable robot remains.", kind=bool)
 
-MESH_FOLDER = declare(
+MESH_FOLDER = Option(
     "Folder of the mesh files, relative to the model.", metavar="DIR", check=parse_mesh_folder
 )
 
-FIX_INERTIA = declare(
+FIX_INERTIA = Option(
     "Repair of physically inconsistent inertia: lift, balance, box, or none (refuse it).",
     words=get_args(FixInertia),
     metavar="REPAIR",
 )
 
-DECOMPOSE = declare("Decompose collision meshes into convex pieces.", kind=bool)
+DECOMPOSE = Option("Decompose collision meshes into convex pieces.", kind=bool)
 
-BASE = declare(
+BASE = Option(
     "Base of the robot; auto: free for robots with legs or driven wheels, or if the file "
     "defines it so.",
     words=get_args(Base),
 )
 
-ACTUATORS = declare(
+ACTUATORS = Option(
     "Actuators: auto (as transmissions, ros2_control and drive plugins describe, and position "
     "servos for the other joints), described (without these servos), none, or position, velocity "
     "or motor for all joints.",
@@ -162,14 +166,14 @@ ACTUATORS = declare(
     metavar="KIND",
 )
 
-POSE = declare(
+POSE = Option(
     "Home position of joints [rad or m] by name or pattern; an SRDF group state; or stand, with "
     "bent legs. Repeatable.",
     kind=dict,
     metavar="JOINT=VALUE|NAME",
 )
 
-TIMESTEP = declare(
+TIMESTEP = Option(
     "Physics time step [s], for which gains of servos are chosen.  [default: 0.002]",
     kind=float,
     metavar="SECONDS",

@@ -49,90 +49,69 @@ class Options:
         proofs: What is known of pairs of the SRDF, by the names of both links, as comments.
     """
 
-    actuators: Actuators = field(default="auto", metadata=ACTUATORS)
-    timestep: float | None = field(default=None, metadata=TIMESTEP)
-    base: Base = field(default="auto", metadata=BASE)
-    scene: bool = field(
-        default=False, metadata=declare("Also write scene.xml with a floor and a light.", kind=bool)
+    actuators: Actuators = declare("auto", ACTUATORS)
+    timestep: float | None = declare(None, TIMESTEP)
+    base: Base = declare("auto", BASE)
+    scene: bool = declare(False, "Also write scene.xml with a floor and a light.", kind=bool)
+    srdf: Path | None = declare(
+        None,
+        "SRDF file with disabled collisions and group states for the home position.",
+        kind=Path,
+        metavar="FILE",
     )
-    srdf: Path | None = field(
-        default=None,
-        metadata=declare(
-            "SRDF file with disabled collisions and group states for the home position.",
-            kind=Path,
-            metavar="FILE",
-        ),
-    )
-    fix_inertia: FixInertia = field(default="none", metadata=FIX_INERTIA)
-    force: bool = field(default=False, metadata=FORCE)
-    mesh_dir: str = field(default="assets", metadata=MESH_FOLDER)
+    fix_inertia: FixInertia = declare("none", FIX_INERTIA)
+    force: bool = declare(False, FORCE)
+    mesh_dir: str = declare("assets", MESH_FOLDER)
     file: str = ""
-    decompose: bool = field(default=False, metadata=DECOMPOSE)
+    decompose: bool = declare(False, DECOMPOSE)
     cutter: Cutter | None = None
-    keep_locked_joints: bool = field(
-        default=False,
-        metadata=declare(
-            "Keep joints with lower = upper, held by an equality (default: weld their links).",
-            kind=bool,
-        ),
+    keep_locked_joints: bool = declare(
+        False,
+        "Keep joints with lower = upper, held by an equality (default: weld their links).",
+        kind=bool,
     )
-    pose: Mapping[str, float] = field(
-        default_factory=dict,
-        metadata=POSE,
-    )
+    pose: Mapping[str, float] = declare({}, POSE)
     state: str = ""
-    base_sensors: bool = field(
-        default=False,
-        metadata=declare(
-            "Add missing sensors of a free base: linear velocity, gyro, accelerometer, "
-            "orientation.",
-            kind=bool,
-        ),
+    base_sensors: bool = declare(
+        False,
+        "Add missing sensors of a free base: linear velocity, gyro, accelerometer, orientation.",
+        kind=bool,
     )
-    actuator_config: Path | None = field(
-        default=None,
-        metadata=declare(
-            "TOML file with kp, kd, armature, damping, friction, force-range and type under "
-            '[joints."NAME or PATTERN"].',
-            kind=Path,
-            metavar="FILE",
-        ),
+    actuator_config: Path | None = declare(
+        None,
+        "TOML file with kp, kd, armature, damping, friction, force-range and type under "
+        '[joints."NAME or PATTERN"].',
+        kind=Path,
+        metavar="FILE",
     )
-    armature: float | None = field(
-        default=None,
-        metadata=declare(
-            "Rotor inertia reflected at every joint [kg·m², or kg for prismatic joints].",
-            kind=float,
-            metavar="VALUE",
-            minimum=0,
-        ),
+    armature: float | None = declare(
+        None,
+        "Rotor inertia reflected at every joint [kg·m², or kg for prismatic joints].",
+        kind=float,
+        metavar="VALUE",
+        minimum=0,
     )
-    exclude: Exclude = field(
-        default="adjacent",
-        metadata=declare(
-            "Link pairs without contacts: adjacent (joined by a joint), touching (also those that "
-            "overlap at home), or none (only those of --srdf).",
-            words=get_args(Exclude),
-            metavar="PAIRS",
-            offered="touching",  # compiles the model to find them
-        ),
+    exclude: Exclude = declare(
+        "adjacent",
+        "Link pairs without contacts: adjacent (joined by a joint), touching (also those that "
+        "overlap at home), or none (only those of --srdf).",
+        words=get_args(Exclude),
+        metavar="PAIRS",
+        offered="touching",  # compiles the model to find them
     )
-    purpose: Purpose = field(
-        default="",
-        metadata=declare(
-            "Complete the model for a purpose: rl adds --base-sensors, --fuse, sensors of joints, "
-            "servos in place of motors, armature and friction loss by effort limit, and contacts "
-            "of feet with condim 6 and priority 1.",
-            words=get_args(Purpose)[1:],
-            flag="for",
-            metavar="PURPOSE",
-        ),
+    purpose: Purpose = declare(
+        "",
+        "Complete the model for a purpose: rl adds --base-sensors, --fuse, sensors of joints, "
+        "servos in place of motors, armature and friction loss by effort limit, and contacts "
+        "of feet with condim 6 and priority 1.",
+        words=get_args(Purpose)[1:],
+        flag="for",
+        metavar="PURPOSE",
     )
-    fuse: bool = field(
-        default=False,
-        metadata=declare(
-            "Merge links of fixed joints into their parents; their frames become sites.", kind=bool
-        ),
+    fuse: bool = declare(
+        False,
+        "Merge links of fixed joints into their parents; their frames become sites.",
+        kind=bool,
     )
     overlap: Overlap | None = None
     proofs: Mapping[frozenset[str], str] = field(default_factory=dict)

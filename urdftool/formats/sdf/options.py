@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, get_args
 
@@ -62,64 +62,49 @@ class Options:
         overlaps: Finds links that overlap at the start, which is reported; None reports no start.
     """
 
-    target: Target = field(
-        default="gz", metadata=declare("Target simulator.", words=get_args(Target))
+    target: Target = declare("gz", "Target simulator.", words=get_args(Target))
+    version: str = declare(
+        "",
+        "SDF version: 1.9 to 1.12 for gz, 1.6 or 1.7 for gazebo-classic.  [default: 1.11 for "
+        "gz, 1.7 for gazebo-classic]",
+        words=tuple(RELEASES),
+        flag="sdf-version",
+        metavar="VERSION",
     )
-    version: str = field(
-        default="",
-        metadata=declare(
-            "SDF version: 1.9 to 1.12 for gz, 1.6 or 1.7 for gazebo-classic.  [default: 1.11 for "
-            "gz, 1.7 for gazebo-classic]",
-            words=tuple(RELEASES),
-            flag="sdf-version",
-            metavar="VERSION",
-        ),
+    fixed_joints: FixedJoints = declare(
+        "",
+        "Fixed joints: keep, or lump their links into one.  [default: keep for gz, lump for "
+        "gazebo-classic]",
+        words=get_args(FixedJoints)[1:],
+        metavar="METHOD",
     )
-    fixed_joints: FixedJoints = field(
-        default="",
-        metadata=declare(
-            "Fixed joints: keep, or lump their links into one.  [default: keep for gz, lump for "
-            "gazebo-classic]",
-            words=get_args(FixedJoints)[1:],
-            metavar="METHOD",
-        ),
+    uri: Uri = declare(
+        "",
+        "Form of mesh URIs: relative, model, package or file; meshes are copied for relative "
+        "and model only.",
+        words=get_args(Uri)[1:],
+        metavar="FORM",
     )
-    uri: Uri = field(
-        default="",
-        metadata=declare(
-            "Form of mesh URIs: relative, model, package or file; meshes are copied for relative "
-            "and model only.",
-            words=get_args(Uri)[1:],
-            metavar="FORM",
-        ),
+    base: ChosenBase = declare(
+        "",
+        "Base of the robot: auto (as export mjcf decides), fixed by a joint to the world, or "
+        "free.  [default: as the description defines it; free if it does not]",
+        words=get_args(ChosenBase)[1:],
+        metavar="BASE",
     )
-    base: ChosenBase = field(
-        default="",
-        metadata=declare(
-            "Base of the robot: auto (as export mjcf decides), fixed by a joint to the world, or "
-            "free.  [default: as the description defines it; free if it does not]",
-            words=get_args(ChosenBase)[1:],
-            metavar="BASE",
-        ),
-    )
-    world: bool = field(
-        default=False,
-        metadata=declare("Write a world with the model, a ground and a sun.", kind=bool),
-    )
-    force: bool = field(default=False, metadata=FORCE)
+    world: bool = declare(False, "Write a world with the model, a ground and a sun.", kind=bool)
+    force: bool = declare(False, FORCE)
     folder: str = ""
     file: str = ""
     overlaps: Overlaps | None = None
-    mesh_dir: str = field(default="meshes", metadata=MESH_FOLDER)
-    fix_inertia: FixInertia = field(default="none", metadata=FIX_INERTIA)
-    actuator_config: Path | None = field(
-        default=None,
-        metadata=declare(
-            'TOML file with damping, friction and force-range under [joints."NAME or PATTERN"]; '
-            "the same file as for export mjcf.",
-            kind=Path,
-            metavar="FILE",
-        ),
+    mesh_dir: str = declare("meshes", MESH_FOLDER)
+    fix_inertia: FixInertia = declare("none", FIX_INERTIA)
+    actuator_config: Path | None = declare(
+        None,
+        'TOML file with damping, friction and force-range under [joints."NAME or PATTERN"]; '
+        "the same file as for export mjcf.",
+        kind=Path,
+        metavar="FILE",
     )
 
     def __post_init__(self) -> None:

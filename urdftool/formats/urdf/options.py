@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..common.option import FORCE, MESH_FOLDER, check_options, declare
@@ -20,27 +20,22 @@ class Options:
         srdf: Whether to write an SRDF file next to the URDF if the robot has content for it.
     """
 
-    frames: bool = field(
-        default=True,
-        metadata=declare("Sites and frames: keep as links without mass, or none.", kind=bool),
+    frames: bool = declare(
+        True, "Sites and frames: keep as links without mass, or none.", kind=bool
     )
-    force: bool = field(default=False, metadata=FORCE)
+    force: bool = declare(False, FORCE)
     file: str = ""
-    mesh_dir: str = field(default="meshes", metadata=MESH_FOLDER)
-    hardware: str = field(
-        default=HARDWARE,
-        metadata=declare(
-            "Hardware plugin in <ros2_control>, which holds the actuators; none drops them.",
-            metavar="PLUGIN",
-        ),
+    mesh_dir: str = declare("meshes", MESH_FOLDER)
+    hardware: str = declare(
+        HARDWARE,
+        "Hardware plugin in <ros2_control>, which holds the actuators; none drops them.",
+        metavar="PLUGIN",
     )
-    root: str = field(
-        default="",
-        metadata=declare(
-            "Root link of the tree to write, of a model with several.  [default: the tree with "
-            "most joints]",
-            metavar="LINK",
-        ),
+    root: str = declare(
+        "",
+        "Root link of the tree to write, of a model with several.  [default: the tree with "
+        "most joints]",
+        metavar="LINK",
     )
     srdf: bool = True
 

@@ -43,61 +43,48 @@ class Options:
         proofs: What is known of pairs of the SRDF, by the names of both links, as custom data.
     """
 
-    target: Target = field(
-        default="both",
-        metadata=declare(
-            "Simulator: newton omits attributes of PhysX, isaac adds the schemas of Isaac Sim.",
-            words=get_args(Target),
-        ),
+    target: Target = declare(
+        "both",
+        "Simulator: newton omits attributes of PhysX, isaac adds the schemas of Isaac Sim.",
+        words=get_args(Target),
     )
-    base: Base = field(default="auto", metadata=BASE)
-    layers: Layers = field(
-        default="single",
-        metadata=declare(
-            "One layer, or a payload with one layer each for geometry, materials and physics.",
-            words=get_args(Layers),
-        ),
+    base: Base = declare("auto", BASE)
+    layers: Layers = declare(
+        "single",
+        "One layer, or a payload with one layer each for geometry, materials and physics.",
+        words=get_args(Layers),
     )
-    srdf: Path | None = field(
-        default=None,
-        metadata=declare(
-            "SRDF file with disabled collisions, virtual joint and group states for the home "
-            "position.",
-            kind=Path,
-            metavar="FILE",
-        ),
+    srdf: Path | None = declare(
+        None,
+        "SRDF file with disabled collisions, virtual joint and group states for the home position.",
+        kind=Path,
+        metavar="FILE",
     )
-    pose: Mapping[str, float] = field(default_factory=dict, metadata=POSE)
+    pose: Mapping[str, float] = declare({}, POSE)
     state: str = ""
-    actuators: Actuators = field(default="auto", metadata=ACTUATORS)
-    timestep: float | None = field(default=None, metadata=TIMESTEP)
-    self_collision: bool | None = field(
-        default=None,
-        metadata=declare(
-            "Whether links collide with each other.  [default: with --srdf or <self_collide>]",
-            kind=bool,
-        ),
+    actuators: Actuators = declare("auto", ACTUATORS)
+    timestep: float | None = declare(None, TIMESTEP)
+    self_collision: bool | None = declare(
+        None,
+        "Whether links collide with each other.  [default: with --srdf or <self_collide>]",
+        kind=bool,
     )
-    actuator_config: Path | None = field(
-        default=None,
-        metadata=declare(
-            "TOML file with kp, kd, armature, damping, friction and force-range under "
-            '[joints."NAME or PATTERN"].',
-            kind=Path,
-            metavar="FILE",
-        ),
+    actuator_config: Path | None = declare(
+        None,
+        "TOML file with kp, kd, armature, damping, friction and force-range under "
+        '[joints."NAME or PATTERN"].',
+        kind=Path,
+        metavar="FILE",
     )
-    approximation: Approximation = field(
-        default="hull",
-        metadata=declare(
-            "Collision geometry of a mesh: its convex hull, or its triangles.",
-            words=get_args(Approximation),
-        ),
+    approximation: Approximation = declare(
+        "hull",
+        "Collision geometry of a mesh: its convex hull, or its triangles.",
+        words=get_args(Approximation),
     )
-    decompose: bool = field(default=False, metadata=DECOMPOSE)
+    decompose: bool = declare(False, DECOMPOSE)
     cutter: Cutter | None = None
-    fix_inertia: FixInertia = field(default="none", metadata=FIX_INERTIA)
-    force: bool = field(default=False, metadata=FORCE)
+    fix_inertia: FixInertia = declare("none", FIX_INERTIA)
+    force: bool = declare(False, FORCE)
     file: str = ""
 
     overlaps: Overlaps | None = None
