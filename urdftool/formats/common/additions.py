@@ -35,16 +35,17 @@ def announce_additions(checks: Sequence[Check], source: Robot, planned: Robot) -
         "joint physics": (*_list_added_dynamics(*sides), *_list_added_stops(*sides)),
         "sensors": _list_added_sensors(*sides),
         "surface": _list_added_contact(*sides),
-        "actuators": _compare_keys(*drives, " with kinds and gains of the export"),
-        "contact pairs": _compare_keys(*pairs),
-        "configurations": _compare_keys(*states),
+        "actuators": _compare_keys(drives, " with kinds and gains of the export"),
+        "contact pairs": _compare_keys(pairs),
+        "configurations": _compare_keys(states),
     }
     for check in checks:
         check.announced += rows.get(check.name, ())
 
 
-def _compare_keys(source: _Parts, planned: _Parts, remark: str = "") -> Iterator[str]:
+def _compare_keys(sides: Sequence[_Parts], remark: str = "") -> Iterator[str]:
     """Yield a text with the parts of an export whose keys its source does not have."""
+    source, planned = sides
     known = {key for key, _ in source}
     return _describe("added", [name for key, name in planned if key not in known], remark)
 
