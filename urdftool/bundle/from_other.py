@@ -20,12 +20,7 @@ FOLDER = "meshes"
 
 @dataclass(frozen=True)
 class Converted:
-    """A robot as URDF.
-
-    Attributes:
-        robot: The robot, read from the URDF; its meshes are those of the source.
-        losses: What the URDF does not hold.
-    """
+    """A robot as URDF."""
 
     robot: Robot
     losses: list[Finding]

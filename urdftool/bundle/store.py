@@ -32,13 +32,7 @@ _TARGETS: dict[str, MeshFormat] = {"stl": "stl", "glb": "glb", "gltf": "glb", "d
 
 @dataclass(frozen=True)
 class Conversion:
-    """Conversion of meshes to another format.
-
-    Attributes:
-        target: The format.
-        accepts: Function that tells whether a mesh file stays as it is.
-        gltf_up: Up axis of glTF files.
-    """
+    """Conversion of meshes to another format."""
 
     target: MeshFormat
     accepts: Callable[[Path], bool]

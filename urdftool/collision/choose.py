@@ -58,14 +58,7 @@ _PRIMITIVE_WITHIN = 2.2  # a primitive within the limit has a hull within twice 
 
 @dataclass(frozen=True)
 class Choice:
-    """Pieces with their method and quality.
-
-    Attributes:
-        method: One of ``METHODS`` other than ``"auto"``.
-        pieces: Pieces in the mesh's frame.
-        measures: Their quality.
-        notes: Remarks on failed attempts and on the limits.
-    """
+    """Pieces with their method and quality."""
 
     method: str
     pieces: list[Piece]

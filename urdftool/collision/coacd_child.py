@@ -11,15 +11,12 @@ from ..geometry.mesh import Faces, Points
 
 
 def decompose(vertices: Points, faces: Faces, options: dict[str, Any]) -> list[Points]:
-    """Decompose a closed surface into convex pieces.
+    """Decompose a closed surface into convex pieces; return the points of each piece, shape (k, 3).
 
     Args:
         vertices: Points, shape (n, 3).
         faces: Triangles, shape (m, 3).
         options: Arguments of ``coacd.run_coacd``.
-
-    Returns:
-        The points of each piece, shape (k, 3).
 
     Raises:
         MissingDependency: coacd is not installed.

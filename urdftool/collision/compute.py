@@ -22,13 +22,7 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class PlacedMesh:
-    """Another mesh of a link.
-
-    Attributes:
-        path: The mesh file.
-        scale: Factors, as URDF's ``<mesh scale>``.
-        pose: Its pose in the frame of the first mesh.
-    """
+    """Another mesh of a link."""
 
     path: Path
     scale: Vector

@@ -26,14 +26,7 @@ Place = tuple[str, int]
 
 @dataclass
 class Edited:
-    """Changed files, and links that could not be edited.
-
-    Attributes:
-        files: Content by path.
-        plans: Links that were edited.
-        used: Meshes whose pieces they use.
-        refused: One sentence for each link that was not edited.
-    """
+    """Changed files, and links that could not be edited."""
 
     files: dict[str, bytes] = field(default_factory=dict)
     plans: list[LinkPlan] = field(default_factory=list)

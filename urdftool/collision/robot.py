@@ -51,14 +51,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Written:
-    """Output of :func:`write_robot`.
-
-    Attributes:
-        layout: Files and URIs of the pieces.
-        plans: Links that were changed.
-        text: The new description; empty for a robot edited in place.
-        refused: One sentence for each link that could not be edited in place.
-    """
+    """Output of :func:`write_robot`."""
 
     layout: Layout
     plans: Sequence[LinkPlan]

@@ -31,16 +31,13 @@ _DIRECTIONS = np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z 
 
 
 def fit_spheres(target: ReferenceSurface, count: int, *, cover: bool) -> list[Piece]:
-    """Fit a number of spheres with the least error.
+    """Fit a number of spheres with the least error; return the spheres, the largest first.
 
     Args:
         target: The mesh.
         count: Number of spheres; fewer if that is enough.
         cover: Whether no point of the exterior may be outside of the spheres. Otherwise they
             protrude by half of what this takes, and leave out up to the other half.
-
-    Returns:
-        The spheres, the largest first.
     """
     dense, exterior = target.nearest.samples.points, target.exterior
     points: Points = dense[:: max(1, len(dense) // _POINTS)]

@@ -46,13 +46,7 @@ class Robots:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Result of one robot.
-
-    Attributes:
-        code: Exit code of its export.
-        out: What it printed to standard output.
-        err: What it printed to standard error.
-    """
+    """Result of one robot."""
 
     code: int
     out: str
@@ -61,14 +55,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Exporter:
-    """Function that exports one robot in a worker process; pickled with its options.
-
-    Attributes:
-        console: Source of the configuration file.
-        name: Name of the format.
-        arguments: xacro arguments by name.
-        values: Values of the other parameters of the command.
-    """
+    """Function that exports one robot in a worker process; pickled with its options."""
 
     console: Console
     name: str

@@ -51,12 +51,9 @@ def run_export(
     *,
     more_checks: Callable[[Robot], list[Finding]] | None = None,
 ) -> int:
-    """Export a robot, and report what was lost, compared and written.
+    """Export a robot, and report what was lost, compared and written; return the exit code.
 
     ``values`` are those of :func:`make_export_options`; an output ``-`` is standard output.
-
-    Returns:
-        The exit code.
 
     Raises:
         OutputError: The output cannot be written; existing files are unchanged.

@@ -23,12 +23,7 @@ _MOST = 6  # rules that a message names; chosen
 
 
 class Kinds(NamedTuple):
-    """Kinds of fixes to apply in addition to the safe ones.
-
-    Attributes:
-        unsafe: Fixes that change the robot's physics.
-        meshes: Fixes that write mesh files.
-    """
+    """Kinds of fixes to apply in addition to the safe ones."""
 
     unsafe: bool = False
     meshes: bool = False

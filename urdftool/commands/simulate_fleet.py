@@ -19,20 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Fleet:
-    """Function that simulates one robot in a worker process; pickled with its options.
-
-    Attributes:
-        console: Source of the configuration file.
-        arguments: Values of xacro arguments by name.
-        packages: Folders by package name.
-        package_paths: Folders that are searched for packages.
-        settings: Settings of the simulation.
-        engines: Names of engines.
-        controllers: Controller file; None for none.
-        strict: Refuse controllers of an unknown type, and fail robots with warnings.
-        named: Descriptions of the command line, in contrast to those found in folders.
-        cache: Folder of the hull cache; None for no cache.
-    """
+    """Function that simulates one robot in a worker process; pickled with its options."""
 
     console: Console
     arguments: Mapping[str, str]

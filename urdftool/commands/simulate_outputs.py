@@ -22,14 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Outputs:
-    """Requested output files.
-
-    Attributes:
-        plot: File of the plot over time; None for none.
-        picture: File of the picture of the final state; None for none.
-        video: File of the animation; None for none.
-        shapes: Geometry to draw, after :meth:`read`.
-    """
+    """Requested output files."""
 
     plot: str | None = None
     picture: str | None = None

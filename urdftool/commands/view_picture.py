@@ -161,7 +161,7 @@ def write_pictures(
     show: str = "visual",
     findings: bool = False,
 ) -> int:
-    """Write the requested pictures.
+    """Write the requested pictures; return the exit code: 1 if a part was not drawn.
 
     Meshes that cannot be loaded are reported and not drawn.
 
@@ -175,9 +175,6 @@ def write_pictures(
         pose: Joint positions by name [rad or m].
         show: Geometry to show: ``visual``, ``collision`` or ``both``.
         findings: Whether to check the robot and draw the findings on the picture.
-
-    Returns:
-        The exit code: 1 if a part was not drawn.
 
     Raises:
         ModelError: A joint position is not possible, there is nothing to draw, or no joint moves

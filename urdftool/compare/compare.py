@@ -50,14 +50,7 @@ _FARTHEST = 0.02
 
 @dataclass
 class _Walk:
-    """State of the comparison.
-
-    Attributes:
-        pair: Both robots.
-        comparison: The result.
-        compared: Joints of the first robot whose child was compared.
-        signs: Sign of the axis of each joint of the first robot.
-    """
+    """State of the comparison."""
 
     pair: Pair
     comparison: Comparison

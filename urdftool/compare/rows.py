@@ -10,13 +10,7 @@ from ..suggestions import suggest_name
 
 
 class Row(NamedTuple):
-    """A compared property.
-
-    Attributes:
-        name: Name in tables and for ``--only``.
-        what: What is compared.
-        tolerance: Largest difference that counts as equal.
-    """
+    """A compared property."""
 
     name: str
     what: str

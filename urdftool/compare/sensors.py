@@ -35,16 +35,7 @@ _CPU = ("lidar", "ray")
 
 
 class _Sensor(NamedTuple):
-    """A sensor or camera that is compared.
-
-    Attributes:
-        part: The part of the robot.
-        name: Its name.
-        type: Type in gz, or tag in MJCF.
-        link: Name of its link; of the child for a sensor of a joint.
-        pose: Pose in the link, 4 × 4; None where it is not compared.
-        settings: Its parameters.
-    """
+    """A sensor or camera that is compared."""
 
     part: Camera | MountedSensor
     name: str

@@ -154,14 +154,7 @@ def draw_contact_sheet(
 
 @dataclass(frozen=True)
 class Layout:
-    """Layout of a sheet, in pixels.
-
-    Attributes:
-        columns: Number of joints per row.
-        rows: Number of joints per column.
-        cell: Width and height of one picture.
-        letter: Height of letters.
-    """
+    """Layout of a sheet, in pixels."""
 
     columns: int
     rows: int

@@ -14,15 +14,7 @@ from .settings import Settings, Value
 
 
 class Remark(NamedTuple):
-    """A statement of a description that is not used as it is written.
-
-    Attributes:
-        code: Rule of ``lint`` that reports it.
-        place: Where it is.
-        kind: Kind of its part, such as ``link``.
-        name: Name of that part.
-        message: What is wrong, and what counts instead.
-    """
+    """A statement of a description that is not used as it is written."""
 
     code: str
     place: Place

@@ -30,19 +30,7 @@ _HEAD = (
 
 @dataclass(frozen=True, eq=False)
 class Row:
-    """The result for a mesh or the meshes of a link, or for a single mesh file.
-
-    Attributes:
-        name: Name of the link, or of the mesh file.
-        mesh: Path of the mesh file.
-        scale: Scale factors.
-        result: Result of the simplification.
-        max_error: Error limit, relative to the size of the meshes.
-        files: File names of its pieces; empty for a primitive.
-        source: ``"visual"`` or ``"collision"``; empty for a single mesh file.
-        requested: The requested method.
-        others: Paths of the meshes that were simplified together with it.
-    """
+    """The result for a mesh or the meshes of a link, or for a single mesh file."""
 
     name: str
     mesh: str
@@ -87,14 +75,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Report:
-    """All rows of a robot or of a mesh.
-
-    Attributes:
-        path: Path of the input.
-        output: Path of the output; empty if nothing was written.
-        rows: One row for each mesh.
-        left: Names of the unchanged links.
-    """
+    """All rows of a robot or of a mesh."""
 
     path: str
     output: str

@@ -68,13 +68,7 @@ class AnsweringProtocol(LanguageServerProtocol):
 
 
 class RobotServer(LanguageServer):
-    """Language server of robot descriptions.
-
-    Attributes:
-        settings: Settings of the command line.
-        worker: The checking process.
-        publication: Diagnostics that are shown.
-    """
+    """Language server of robot descriptions."""
 
     def __init__(self, settings: ServerSettings) -> None:
         """Create a server that answers what :func:`add_features` declares."""

@@ -66,13 +66,7 @@ class Difference:
 
 @dataclass(frozen=True)
 class EngineComparison:
-    """Comparison of two engines on the same trials of a robot.
-
-    Attributes:
-        engines: Title and version of each engine.
-        differences: Differences by trial, the largest excess first.
-        causes: Possible causes, the most probable first.
-    """
+    """Comparison of two engines on the same trials of a robot."""
 
     engines: tuple[str, str]
     differences: tuple[Difference, ...] = ()

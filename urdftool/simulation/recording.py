@@ -41,15 +41,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class ReadBack:
-    """A value that the engine loaded differently from the file.
-
-    Attributes:
-        kind: ``link`` or ``joint``.
-        name: Name of the link or joint.
-        what: Such as ``mass``.
-        specified: Value in the file, with its unit.
-        loaded: Value in the engine, with its unit.
-    """
+    """A value that the engine loaded differently from the file."""
 
     kind: str
     name: str

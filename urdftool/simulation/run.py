@@ -44,16 +44,7 @@ Start = tuple[Array, list[Contact]]
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """One trial.
-
-    Attributes:
-        settings: Settings of this trial.
-        bodies: Rigid bodies of the robot at the start.
-        recording: Measurements of the engine.
-        swept: Results of moving each joint through its limits; empty without ``Settings.sweep``.
-        known: Precomputed results of the start; see ``StateSnapshot.get_or_compute``.
-        thresholds: Thresholds of the checks.
-    """
+    """One trial."""
 
     settings: Settings
     bodies: RigidBodyModel

@@ -16,15 +16,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False)
 class StateSnapshot:
-    """Poses and contacts at one sample of a run.
-
-    Attributes:
-        bodies: Rigid bodies of the robot.
-        poses: Pose of each body, as in ``Recording``, shape (b, 7).
-        contacts: Contacts and overlaps.
-        known: Results by key; see :meth:`get_or_compute`.
-        thresholds: Thresholds of the checks, on which the results depend.
-    """
+    """Poses and contacts at one sample of a run."""
 
     bodies: RigidBodyModel
     poses: Array

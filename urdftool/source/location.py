@@ -88,14 +88,7 @@ class SourceFile:
 
 
 class Call(NamedTuple):
-    """xacro macro call or include that leads to an element.
-
-    Attributes:
-        file: File that contains the call.
-        start: Byte of the start of the calling tag.
-        macro: Name of the macro; empty for an include.
-        arguments: Evaluated arguments of the call.
-    """
+    """xacro macro call or include that leads to an element."""
 
     file: SourceFile
     start: int

@@ -53,14 +53,7 @@ def list_causes(error: BaseException) -> list[BaseException]:
 
 
 class Failure(NamedTuple):
-    """Exception of xacro with its context.
-
-    Attributes:
-        error: The exception.
-        node: Element that xacro was processing.
-        failed_text: Text or expression whose evaluation failed, if any.
-        result: Files and definitions read so far.
-    """
+    """Exception of xacro with its context."""
 
     error: Exception
     node: XacroElement | None
@@ -74,13 +67,7 @@ class Failure(NamedTuple):
 
 
 class Explanation(NamedTuple):
-    """Explanation of a failed expansion.
-
-    Attributes:
-        rule: Lint rule that reports it.
-        message: One sentence: the fact and, where known, the correct form.
-        data: Values for fixes, by name.
-    """
+    """Explanation of a failed expansion."""
 
     rule: str
     message: str

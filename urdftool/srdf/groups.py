@@ -40,16 +40,7 @@ class GivenGroup(NamedTuple):
 
 @dataclass
 class PlanningGroups:
-    """Groups of a robot, and what belongs to them.
-
-    Attributes:
-        groups: Groups: chains first, then grippers, then groups of groups.
-        states: Named states.
-        end_effectors: End effectors.
-        virtual_joints: Joint to the world, unless the root is the world.
-        passive_joints: Joints that are not actuated.
-        ungrouped: Names of the actuated joints that are in no group.
-    """
+    """Groups of a robot, and what belongs to them."""
 
     groups: list[Group] = field(default_factory=list)
     states: list[GroupState] = field(default_factory=list)

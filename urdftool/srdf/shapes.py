@@ -63,14 +63,7 @@ class Solid:
 
 @dataclass(frozen=True, eq=False)
 class LinkShape:
-    """Shapes of a link.
-
-    Attributes:
-        link: Name of the link.
-        pieces: Convex pieces that cover it.
-        solids: Shapes for tests of contact.
-        problem: Why its shape is not known; empty if it is.
-    """
+    """Shapes of a link."""
 
     link: str
     pieces: tuple[Piece, ...]

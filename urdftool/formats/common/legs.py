@@ -48,14 +48,7 @@ _SAMPLES = 400  # angles of a knee; chosen
 
 @dataclass(frozen=True)
 class Leg:
-    """A leg that bends in a plane.
-
-    Attributes:
-        hip: The upper joint.
-        knee: The lower joint.
-        ankle: A third joint with a parallel axis, which keeps the foot level; None without one.
-        foot: Topmost link of the last rigid body.
-    """
+    """A leg that bends in a plane."""
 
     hip: Joint
     knee: Joint

@@ -56,17 +56,7 @@ DIFFUSE, SPECULAR, CUTOFF = (0.7, 0.7, 0.7), (0.3, 0.3, 0.3), 45.0
 
 @dataclass(frozen=True)
 class Plan:
-    """What an export writes.
-
-    Attributes:
-        name: Name of the model.
-        options: Options of the export.
-        structure: The kinematic tree; its robot has every choice of the export.
-        home: Initial configuration.
-        masses: Mass properties of each link.
-        boxes: Boxes of the shapes.
-        wrong: Mass properties that MuJoCo rejects.
-    """
+    """What an export writes."""
 
     name: str
     options: Options

@@ -34,12 +34,7 @@ _NAMED = ("mesh", "hfield", "texture")
 
 @dataclass(frozen=True)
 class Asset:
-    """A file that a model names.
-
-    Attributes:
-        path: Path as MuJoCo forms it, relative to the folder of the main file.
-        element: Element that names it.
-    """
+    """A file that a model names."""
 
     path: str
     element: Element

@@ -17,16 +17,7 @@ from .read_text import Expanded
 
 @dataclass
 class Context:
-    """State of reading one model.
-
-    Attributes:
-        expanded: The text, with the element of each line.
-        compiled: The values.
-        losses: What the robot does not hold.
-        links: Name of the link of each body by id; empty for a world that is not a link.
-        shifts: Pose of the frame of each body in the frame of its link.
-        joints: Name of each joint by id.
-    """
+    """State of reading one model."""
 
     expanded: Expanded
     compiled: Compiled

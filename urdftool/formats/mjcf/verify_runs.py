@@ -106,16 +106,13 @@ class Trial:
 def check_runs(
     path: Path, declared: DeclaredLosses, *, excluded: bool, start: str = "home"
 ) -> Check:
-    """Simulate a model at each time step.
+    """Simulate a model at each time step; return the row ``runs`` of the comparison.
 
     Args:
         path: The MJCF file.
         declared: The reported losses.
         excluded: Whether links that overlap at home are excluded from contact.
         start: Where the model starts, for the table.
-
-    Returns:
-        The row ``runs`` of the comparison.
     """
     written = read_timestep(path)
     timesteps = sorted({written, TIMESTEPS[-1]})

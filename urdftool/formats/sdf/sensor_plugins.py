@@ -12,11 +12,7 @@ from .xml import Node, add
 
 
 def convert_sensor_plugin(made: Node, t: Translation, part: Link | Joint, element: Element) -> bool:
-    """Convert a sensor's plugin to settings of the sensor.
-
-    Returns:
-        Whether it is such a plugin.
-    """
+    """Convert a sensor's plugin to settings of the sensor; return whether it is such a plugin."""
     name = get_library(element)
     known = SENSOR_PLUGINS.get(name)
     if known is None:

@@ -42,10 +42,7 @@ def write_config(
     version: int,
     overwrite: bool,
 ) -> list[str]:
-    """Write the configuration of an exported robot.
-
-    Returns:
-        Sentences on what was assumed.
+    """Write the configuration of an exported robot; return sentences on what was assumed.
 
     Raises:
         OutputError: The file cannot be written.

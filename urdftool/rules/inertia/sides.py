@@ -87,14 +87,7 @@ def left_right_asymmetry(
 
 
 class _Difference(NamedTuple):
-    """The first difference of a link from its mirror image.
-
-    Attributes:
-        of: ``mass``, ``center`` or ``moments``.
-        message: Sentence about it.
-        at: Its place in the right link.
-        data: Values for other programs.
-    """
+    """The first difference of a link from its mirror image."""
 
     of: str
     message: str

@@ -265,15 +265,7 @@ _NO_LIMIT = 1e6
 
 
 class _ImplausibleLimit(NamedTuple):
-    """A limit that is implausibly large.
-
-    Attributes:
-        joint: Its joint.
-        limit: The limit.
-        value: Its velocity [rad/s, m/s] or effort [N·m, N].
-        is_endless: Whether the value means no limit.
-        what: The value in words.
-    """
+    """A limit that is implausibly large."""
 
     joint: Joint
     limit: Limit

@@ -14,14 +14,7 @@ from ...source.location import SourceFile
 
 @dataclass
 class Definitions:
-    """All definitions in the files of a description, unexpanded.
-
-    Attributes:
-        documents: The parsed files, without those that are not well-formed.
-        macros: The ``<xacro:macro>`` elements by name.
-        properties: The ``<xacro:property>`` elements by name.
-        arguments: The ``<xacro:arg>`` elements by name.
-    """
+    """All definitions in the files of a description, unexpanded."""
 
     documents: list[Document] = field(default_factory=list)
     macros: dict[str, list[Element]] = field(default_factory=dict)

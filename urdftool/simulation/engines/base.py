@@ -24,12 +24,7 @@ Sample = dict[str, Any]
 
 
 class ModelFiles(Protocol):
-    """An export of a robot, in memory.
-
-    Attributes:
-        main: Path of the model in ``files``.
-        files: Content by relative path: bytes, or the path of a file to copy.
-    """
+    """An export of a robot, in memory."""
 
     @property
     def main(self) -> str:

@@ -35,16 +35,7 @@ class DescriptionFile:
 
 @dataclass(frozen=True)
 class Configuration:
-    """Content of a MoveIt configuration package.
-
-    Attributes:
-        robot: The robot.
-        semantic: Content of its SRDF.
-        description: File of the description.
-        package: Name of the package.
-        stem: Start of the names of the files that are named for the robot.
-        distribution: Distribution of ROS 2.
-    """
+    """Content of a MoveIt configuration package."""
 
     robot: Robot
     semantic: SemanticDescription

@@ -25,16 +25,7 @@ _STATES = ("position", "velocity")
 
 @dataclass(frozen=True)
 class PlannedController:
-    """Controller of some joints.
-
-    Attributes:
-        name: Name of its node.
-        kind: Class in ros2_controllers.
-        type: Type of its action in MoveIt.
-        joints: Names of its joints.
-        commands: Its command interfaces.
-        states: Its state interfaces.
-    """
+    """Controller of some joints."""
 
     name: str
     kind: str

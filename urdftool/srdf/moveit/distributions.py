@@ -7,14 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Distribution:
-    """Distribution of ROS 2.
-
-    Attributes:
-        name: Its name.
-        gripper_controller: Class of the controller of a gripper with one actuated joint.
-        gripper_package: ROS package of this class.
-        gripper_type: Type of its action for MoveIt's simple controller manager.
-    """
+    """Distribution of ROS 2."""
 
     name: str
     gripper_controller: str

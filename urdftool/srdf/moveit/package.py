@@ -50,14 +50,7 @@ _MOVEIT, _ROS2 = "config/moveit_controllers.yaml", "config/ros2_controllers.yaml
 
 @dataclass
 class PackageFile:
-    """File of a package.
-
-    Attributes:
-        path: Its path in the package, with ``/``.
-        data: Its bytes.
-        before: Its bytes on disk; None for a new file.
-        added: Keys that were added to an existing file.
-    """
+    """File of a package."""
 
     path: str
     data: bytes

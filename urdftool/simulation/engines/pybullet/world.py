@@ -44,18 +44,7 @@ def import_pybullet() -> Any:
 
 
 class PyBulletWorld:
-    """A robot above a plane, in PyBullet.
-
-    Attributes:
-        p: The library.
-        robot: PyBullet's index of the robot.
-        plane: PyBullet's index of the plane.
-        link_of: PyBullet's link of each body; -1 is the root.
-        touches: Reader of contacts and overlaps.
-        motors: Motors of the joints.
-        forces: Other forces on bodies and joints.
-        gravity: Gravity in the world [m/s²].
-    """
+    """A robot above a plane, in PyBullet."""
 
     def __init__(self, p: Any, bodies: RigidBodyModel, settings: Settings, folder: Path) -> None:
         """Load the robot and set its initial state."""
