@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar
-
 import click
 
-F = TypeVar("F", bound=Callable[..., Any])
+from .options import make_decorator
 
 CACHE_OPTIONS = (
     click.option(
@@ -18,12 +15,7 @@ CACHE_OPTIONS = (
     click.option("--no-cache", is_flag=True, help="Neither read nor write the result cache."),
 )
 
-
-def add_cache_options(function: F) -> F:
-    """Add ``--cache-dir`` and ``--no-cache``."""
-    for option in reversed(CACHE_OPTIONS):
-        function = option(function)
-    return function
+add_cache_options = make_decorator(CACHE_OPTIONS)
 
 
 def choose_cache_folder(name: str, cache_dir: str | None, no_cache: bool) -> str | None:

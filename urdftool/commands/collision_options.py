@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from .cache_options import CACHE_OPTIONS, choose_cache_folder
-from .options import FiniteRange, make_format_option
+from .options import FiniteRange, make_decorator, make_format_option
 
 if TYPE_CHECKING:
     from ..collision.settings import Settings
     from ..storage import DiskCache
 
-F = TypeVar("F", bound=Callable[..., Any])
 
 METHODS = ("auto", "primitive", "hull", "cuts", "coacd", "spheres", "simplify")
 SPHERE_SUFFIXES = (".yml", ".yaml", ".json")
@@ -40,13 +39,6 @@ def _parse_positive(
     if value is not None and not 0 < value < float("inf"):
         raise click.BadParameter(f"{value:g} is not greater than zero", ctx, parameter)
     return value
-
-
-def add_settings_options(function: F) -> F:
-    """Add the options of :class:`Settings`, of the cache and of the output."""
-    for option in reversed(_OPTIONS):
-        function = option(function)
-    return function
 
 
 _OPTIONS = (
@@ -134,6 +126,9 @@ _OPTIONS = (
     make_format_option("table", "json"),
     click.option("--overwrite", is_flag=True, help="Overwrite mesh files not written by urdftool."),
 )
+
+add_settings_options = make_decorator(_OPTIONS)
+"""Adds the options of :class:`Settings`, of the cache and of the output."""
 
 
 def make_settings(values: dict[str, Any]) -> Settings:

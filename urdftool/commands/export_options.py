@@ -11,7 +11,7 @@ import click
 
 from ..errors import ConfigError
 from ..formats.common.option import Option, get_default, list_options
-from .options import FiniteRange, make_format_option
+from .options import FiniteRange, make_decorator, make_format_option
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -32,7 +32,7 @@ def add_declared_options(options: type, **changes: Mapping[str, Any]) -> Callabl
         )
         for one, option in list_options(options)
     ]
-    return _make_decorator(added)
+    return make_decorator(added)
 
 
 def _make_negation(one: Field[Any], option: Option) -> str:
@@ -85,7 +85,7 @@ def add_output_option(files: str) -> Callable[[F], F]:
 
 def make_export_options(verify: str) -> Callable[[F], F]:
     """Make a decorator that adds the options of strictness, verification and output."""
-    return _make_decorator(
+    return make_decorator(
         [
             click.option(
                 "--overwrite", is_flag=True, help="Overwrite files not written by urdftool."
@@ -99,12 +99,3 @@ def make_export_options(verify: str) -> Callable[[F], F]:
             make_format_option("text", "json", help_text="Output format of the report."),
         ]
     )
-
-
-def _make_decorator(options: list[Callable[[Any], Any]]) -> Callable[[F], F]:
-    def decorate(function: F) -> F:
-        for option in reversed(options):
-            function = option(function)
-        return function
-
-    return decorate

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -25,6 +25,17 @@ CHOSEN = "-r"
 
 OF_SEVERAL = (".sdf", ".world", ".usd", ".usda", ".usdc", ".usdz")
 """Suffixes of files of several robots, one of which ``-r NAME`` after the file chooses."""
+
+
+def make_decorator(options: Sequence[Callable[[Any], Any]]) -> Callable[[F], F]:
+    """Make a decorator that adds options, in their order in the help."""
+
+    def decorate(function: F) -> F:
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return decorate
 
 
 class FiniteRange(click.FloatRange):

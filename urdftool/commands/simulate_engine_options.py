@@ -9,7 +9,7 @@ import click
 
 from ..simulation.engines.registry import BOTH, REGISTRY
 from .cache_options import CACHE_OPTIONS
-from .options import add_name_option, parse_robot, split_arguments
+from .options import add_name_option, make_decorator, parse_robot, split_arguments
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -84,8 +84,4 @@ def _parse_robots(
     return paths, arguments
 
 
-def add_engine_options(function: F) -> F:
-    """Add the options."""
-    for option in reversed(_OPTIONS):
-        function = option(function)
-    return function
+add_engine_options = make_decorator(_OPTIONS)

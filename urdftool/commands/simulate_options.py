@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from .options import FiniteRange, parse_name_numbers
+from .options import FiniteRange, make_decorator, parse_name_numbers
 
 if TYPE_CHECKING:
     from ..simulation.settings import Settings
-
-F = TypeVar("F", bound=Callable[..., Any])
 
 
 def _parse_finite(
@@ -138,12 +135,8 @@ _OPTIONS = (
     ),
 )
 
-
-def add_simulation_options(function: F) -> F:
-    """Add the options; :func:`make_settings` makes settings of their values."""
-    for option in reversed(_OPTIONS):
-        function = option(function)
-    return function
+add_simulation_options = make_decorator(_OPTIONS)
+"""Add the options; :func:`make_settings` makes settings of their values."""
 
 
 def make_settings(values: dict[str, Any]) -> Settings:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import click
 
 from ..console import Console
 from .load_strict import report_gltf_axes
+from .options import make_decorator
 from .picture_file import check_picture_name, write_picture
 from .progress import Progress
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from ..model.elements import Robot
     from ..model.pose import Pose
 
-F = TypeVar("F", bound=Callable[..., Any])
 
 LARGEST = 4096
 """Maximum width and height of a picture [pixels]. Chosen, no source."""
@@ -135,12 +135,7 @@ _OPTIONS = (
     ),
 )
 
-
-def add_picture_options(function: F) -> F:
-    """Add the options."""
-    for option in reversed(_OPTIONS):
-        function = option(function)
-    return function
+add_picture_options = make_decorator(_OPTIONS)
 
 
 def check_pictures(picture: str | None, contact_sheet: str | None) -> None:
