@@ -188,7 +188,7 @@ def _digest_listing(path: str) -> str:
     from hashlib import sha256
 
     with os.scandir(path) as entries:
-        lines = sorted(f"{e.name}{'/' if _is_folder(e) else ''}\0" for e in entries)
+        lines = sorted(f"{e.name}{'/' if is_folder(e) else ''}\0" for e in entries)
     return sha256("".join(lines).encode("utf-8", "surrogateescape")).hexdigest()
 
 
@@ -234,7 +234,8 @@ def _digest_variable(name: str) -> str:
     return f"={os.environ[name]}" if name in os.environ else ABSENT
 
 
-def _is_folder(entry: os.DirEntry[str]) -> bool:
+def is_folder(entry: os.DirEntry[str]) -> bool:
+    """Tell whether an entry is a folder, or a link to one."""
     try:
         return entry.is_dir()
     except OSError:

@@ -21,7 +21,7 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Protocol, TypeVar, cast
 
-from .dependencies import Dependencies, list_code
+from .dependencies import Dependencies, is_folder, list_code
 from .file_access import IRREGULAR, AccessRefused, is_irregular, is_stream
 
 if TYPE_CHECKING:
@@ -318,7 +318,7 @@ class Workspace:
         self.record("list", path)
         folder = os.fspath(path)
         with os.scandir(folder) as entries:
-            found = {e.name: Entry(e.name, e.path, _is_folder(e), e.is_symlink()) for e in entries}
+            found = {e.name: Entry(e.name, e.path, is_folder(e), e.is_symlink()) for e in entries}
         if self._overlay:
             real = os.path.realpath(folder)
             for key in self._overlay:
@@ -466,10 +466,3 @@ class _Copies:
 def _get_key(path: str | Path) -> str:
     """Return the overlay key of a file: its path without symbolic links."""
     return STDIN if path == STDIN else os.path.realpath(path)
-
-
-def _is_folder(entry: os.DirEntry[str]) -> bool:
-    try:
-        return entry.is_dir()
-    except OSError:
-        return False

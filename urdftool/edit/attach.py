@@ -14,6 +14,7 @@ from ..source.document import Element
 from .around import YamlDraft, apply_changes
 from .cut import MARKS
 from .draft import Draft, TextDraft, flatten_element, make_relative
+from .inclusion import quote
 from .numbers import format_number, format_vector
 from .references import list_gazebo_blocks, list_others
 
@@ -218,16 +219,12 @@ def format_joint(mount: Mount, name: str, first: str) -> list[str]:
     """Return the lines of the fixed joint between two robots."""
     xyz, rpy = format_vector(mount.xyz), format_vector(mount.rpy)
     return [
-        f'<joint name="{_quote(name)}" type="fixed">',
-        f'\t<parent link="{_quote(mount.to)}"/>',
-        f'\t<child link="{_quote(first)}"/>',
+        f'<joint name="{quote(name)}" type="fixed">',
+        f'\t<parent link="{quote(mount.to)}"/>',
+        f'\t<child link="{quote(first)}"/>',
         f'\t<origin xyz="{xyz}" rpy="{rpy}"/>',
         "</joint>",
     ]
-
-
-def _quote(name: str) -> str:
-    return name.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
 
 
 def _take_content(arm: Draft, part: Draft, first: str, joint: list[str]) -> bytes:

@@ -21,6 +21,7 @@ from ..source.edit import Edit
 from .around import YamlDraft
 from .closed_loops import check_loops
 from .draft import Draft, TextDraft, is_identity
+from .inclusion import quote
 from .numbers import format_rotation, format_vector, is_same_pose
 from .positions import negate_axis
 from .references import list_gazebo_blocks
@@ -164,19 +165,15 @@ def _turn_round(draft: Draft, joint: Joint) -> None:
         draft,
         joint.element,
         [
-            f'<link name="{_quote(middle)}"/>',
-            f'<joint name="{_quote(middle)}_fixed" type="fixed">',
-            f'\t<parent link="{_quote(middle)}"/>',
-            f'\t<child link="{_quote(joint.parent)}"/>',
+            f'<link name="{quote(middle)}"/>',
+            f'<joint name="{quote(middle)}_fixed" type="fixed">',
+            f'\t<parent link="{quote(middle)}"/>',
+            f'\t<child link="{quote(joint.parent)}"/>',
             f'\t<origin xyz="{xyz}" rpy="{rpy}"/>',
             "</joint>",
             f"<!--{MARK}'{joint.name}' had {written} -->",
         ],
     )
-
-
-def _quote(name: str) -> str:
-    return name.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
 
 
 def _find_free_name(draft: Draft, name: str) -> str:

@@ -228,7 +228,7 @@ class _Editor:
             if id(user) not in having and self._is_same_site(user, request, site):
                 return (
                     "its source is also used elsewhere, where it must not change "
-                    f"({_format_element(user)})"
+                    f"({user.describe()})"
                 )
         return ""
 
@@ -314,10 +314,3 @@ def _describe_edit(request: RequestedEdit) -> str:
         return request.description
     what = call.what if len(call.what) <= _LONGEST_CALL else f"macro '{call.macro}'"
     return f"{request.description} for {call.file.path}:{call.line}:{call.column} ({what})"
-
-
-def _format_element(element: Element) -> str:
-    parent: Element | None = element
-    while parent is not None and "name" not in parent.attributes:
-        parent = parent.parent
-    return f"{parent.tag} '{parent.get('name')}'" if parent is not None else element.tag

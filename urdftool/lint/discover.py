@@ -6,6 +6,8 @@ import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
+from ..listing import list_first
+
 ENDINGS = (".urdf", ".urdf.xacro")
 IGNORED = frozenset(("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"))
 """Files by which colcon, ament and catkin ignore a folder, such as ``install``."""
@@ -67,8 +69,7 @@ def describe_links(links: Iterable[str]) -> str:
 
 def shorten_list(names: Sequence[str]) -> str:
     """Return the first names, and how many more there are."""
-    more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
-    return f"{', '.join(names[:_MOST_NAMES])}{more}"
+    return list_first(names, _MOST_NAMES)
 
 
 def _has_name(path: str) -> bool:

@@ -62,7 +62,7 @@ class Settler:
                     if list(by_element.get(id(user), (None, {}))[1]) != list(by_part):
                         raise RefusedError(
                             "its source is also used elsewhere, where it must not "
-                            f"change in this way ({_format_element(user)})"
+                            f"change in this way ({user.describe()})"
                         )
             if site not in done:
                 done.add(site)
@@ -218,10 +218,3 @@ def _replace_text(source: edit.Source, raw: Element, change: Change) -> edit.Edi
     if new == written:
         raise RefusedError(f"'{written.strip()}' is computed")
     return edit.Edit(begin, end, escape(new).encode("ascii", "xmlcharrefreplace"))
-
-
-def _format_element(element: Element) -> str:
-    parent: Element | None = element
-    while parent is not None and "name" not in parent.attributes:
-        parent = parent.parent
-    return f"{parent.tag} '{parent.get('name')}'" if parent is not None else element.tag

@@ -16,6 +16,7 @@ from typing import Any
 
 from ..diagnostic import FileRewrite, Fix, Replacement, Severity
 from ..finding import Cause, Finding, Group, Site
+from ..listing import quote_first
 from .fingerprint import get_fact
 from .merge import sort_findings
 from .outcome import Outcome
@@ -180,16 +181,9 @@ def _as_one(found: Sequence[Finding]) -> Finding:
 def _format_sentence(group: Group, whole: Finding) -> str:
     if group.sentence:
         sentence = group.sentence.replace("{count}", str(whole.count))
-        return sentence.replace("{names}", _format_names(whole.names))
-    names = f": {_format_names(whole.names[1:])}" if whole.names[1:] else ""
+        return sentence.replace("{names}", quote_first(whole.names, NAMES))
+    names = f": {quote_first(whole.names[1:], NAMES)}" if whole.names[1:] else ""
     return f"{whole.message} (and {whole.count - 1} more{names})"
-
-
-def _format_names(names: Sequence[str]) -> str:
-    """Return names as ``'a', 'b' and 7 more``."""
-    shown = ", ".join(f"'{name}'" for name in names[:NAMES])
-    more = len(names) - NAMES
-    return f"{shown} and {more} more" if more > 0 else shown
 
 
 def _combine_fixes(found: Sequence[Finding]) -> tuple[Fix, ...]:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from ..errors import SourceError, UrdftoolError
+from ..listing import quote_first
 from ..source.document import Document, Element
 
 _WORD = re.compile(r"(?!INF|NAN)[A-Z][A-Z0-9_]{2,}|__[A-Z][A-Z0-9_]*__")
@@ -51,9 +52,8 @@ def find_template_error(error: UrdftoolError) -> UrdftoolError:
 
 
 def _describe_template(words: Sequence[str]) -> str:
-    shown = ", ".join(f"'{word}'" for word in words[:_NAMES])
-    more = f" and {len(words) - _NAMES} more" if len(words) > _NAMES else ""
+    shown = quote_first(words, _NAMES)
     return (
-        f"a template, in which a program replaces {shown}{more}; lint what it writes, and name the "
+        f"a template, in which a program replaces {shown}; lint what it writes, and name the "
         "template in lint.exclude"
     )

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ..configuration import find_configuration
 from ..errors import ConfigError, SourceError
+from ..listing import list_first
 from ..workspace import Workspace
 from .discover import has_ending, list_parts
 from .options import Options
@@ -32,8 +33,7 @@ def explain_no_links(description: Description) -> str:
     macros = sorted(get_macro_names(description))
     tags = dict.fromkeys(child.tag for child in description.document.root.children)
     if macros:
-        more = "" if len(macros) <= _NAMES else f" and {len(macros) - _NAMES} more"
-        what = f"only macros ({', '.join(macros[:_NAMES])}{more})"
+        what = f"only macros ({list_first(macros, _NAMES)})"
     elif tags:
         what = f"only {', '.join(f'<{tag}>' for tag in tags)}"
     else:

@@ -14,6 +14,7 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from ..listing import quote_first
 from ..model.bounds import Bounds
 from ..model.elements import Vector
 from .tensor import SymmetricTensor
@@ -59,11 +60,8 @@ class Misfit(NamedTuple):
 
 def name_shapes(attached: Iterable[str], shown: int = 2) -> str:
     """Name the shapes in the bounding box of a link: its own, and those of attached links."""
-    names = [f"'{name}'" for name in attached]
-    if not names:
-        return "its shapes"
-    more = f" and {len(names) - shown} more" if len(names) > shown else ""
-    return f"its shapes and those of {', '.join(names[:shown])}{more}"
+    names = list(attached)
+    return f"its shapes and those of {quote_first(names, shown)}" if names else "its shapes"
 
 
 def spread_ratio(

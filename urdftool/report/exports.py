@@ -8,6 +8,7 @@ from ..compare.check import Check, is_faithful
 from ..control_characters import escape_controls
 from ..finding import Finding
 from ..formats.common.loss_report import merge_instances
+from ..listing import list_first
 from .findings_json import build_finding_record
 from .json_text import format_json
 from .tables import render_table
@@ -48,7 +49,7 @@ def format_check_table(
         rows.append((check.name, check.what, worst, bound, check.shown))
         lines += [f"{check.name}: differs: {item}" for item in check.differing]
         if check.announced:
-            lines.append(f"{check.name}: announced: {_format_some(check.announced)}")
+            lines.append(f"{check.name}: announced: {list_first(check.announced, 3)}")
         if check.skipped:
             lines.append(f"{check.name}: not compared: {check.skipped}")
     if not_compared:
@@ -57,9 +58,3 @@ def format_check_table(
         lines.append(f"not read, so not compared: {'; '.join(one.message for one in not_read)}")
     table = render_table(rows, left=range(5), rule=True)
     return table + "".join(f"{escape_controls(line)}\n" for line in lines)
-
-
-def _format_some(items: Sequence[str], shown: int = 3) -> str:
-    """List the first known differences; the JSON form has all of them."""
-    more = f" and {len(items) - shown} more" if len(items) > shown else ""
-    return ", ".join(items[:shown]) + more

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ..control_characters import escape_controls
 from ..extras import make_missing_error
 from ..finding import Finding
+from ..listing import list_first
 from ..source.location import Call
 from .counted import format_count
 
@@ -135,8 +136,7 @@ def _name_lines(
         f.code: f"{os.path.basename(f.location.path)}:{f.location.line}" for f in reversed(findings)
     }
     names = [f"{rule} ({places[rule]})" if rule in places else rule for rule in rules]
-    more = f" and {len(names) - shown} more" if len(names) > shown else ""
-    return ", ".join(names[:shown]) + more
+    return list_first(names, shown)
 
 
 def _has_effect_in(finding: Finding, readers: Sequence[str]) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from ..lint.evidence import Evidence
 from ..lint.explained_targets import ExplainedTargets
 from ..lint.variants import label
+from ..listing import list_first
 from .json_text import format_json
 
 _MOST_CONTROLLERS = 6
@@ -38,9 +39,7 @@ def _format_block(one: ExplainedTargets) -> Iterator[str]:
         yield "  controllers:"
     for use in one.controllers:
         named = [f"{name} ({kind})" for name, kind in use.controllers.items()]
-        shown = ", ".join(named[:_MOST_CONTROLLERS])
-        more = f" and {len(named) - _MOST_CONTROLLERS} more" if shown != ", ".join(named) else ""
-        yield f"    {use.path}: {shown}{more}; {use.why}"
+        yield f"    {use.path}: {list_first(named, _MOST_CONTROLLERS)}; {use.why}"
 
 
 def _format_evidence(evidence: Evidence, ignored: str) -> str:

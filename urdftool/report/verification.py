@@ -8,6 +8,7 @@ from ..compare.difference import Comparison, name_part
 from ..compare.rows import GLOBAL_ROWS, NOT_COMPARED
 from ..compare.several import Agreement, Disagreement
 from ..compare.uncompared import MESHES, OPEN, SETTINGS, UNREAD
+from ..listing import quote_first
 from .counted import format_count
 from .json_text import format_json
 from .tables import render_table
@@ -128,9 +129,8 @@ def _format_group(group: Sequence[Disagreement]) -> str:
     first = group[0]
     if len(group) == 1:
         return _format_entry(first, f"{name_part(first.kind, first.name)}: ")
-    names = ", ".join(f"'{entry.name}'" for entry in group[:_NAMED])
-    rest = f" and {len(group) - _NAMED} more" if len(group) > _NAMED else ""
-    return _format_entry(first, f"{len(group)} {first.kind}s {names}{rest}: ")
+    names = quote_first([entry.name for entry in group], _NAMED)
+    return _format_entry(first, f"{len(group)} {first.kind}s {names}: ")
 
 
 def _format_value(value: object) -> str:

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator
 from typing import Any
 
+from ..listing import list_first
 from ..model.elements import Joint, Link, Robot
 from ..rules.xml.vocabulary_table import VOCABULARY
 from ..source.document import Element
@@ -82,8 +83,7 @@ def _describe_values(title: str, found: list[tuple[str, str]]) -> str:
     lines = []
     for value, all_calls in list(values.items())[:MOST_VALUES]:
         shown = [call for call in dict.fromkeys(all_calls) if call]
-        more = f" and {len(shown) - 2} more" if len(shown) > 2 else ""
-        lines.append(f"- `{value}`" + (f": {', '.join(shown[:2])}{more}" if shown else ""))
+        lines.append(f"- `{value}`" + (f": {list_first(shown, 2)}" if shown else ""))
     if len(values) > MOST_VALUES:
         lines.append(f"- … {len(values) - MOST_VALUES} more values")
     return f"{title}:\n\n" + "\n".join(lines)

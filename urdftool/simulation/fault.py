@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..diagnostic import Diagnostic, Severity, make_deprecated_name
@@ -84,9 +83,3 @@ class Fault(Diagnostic):
     def group(self) -> tuple[str, Severity, str]:
         """Return a key that is equal for faults that differ only in their link or joint."""
         return self.code, self.severity, self.cause + self.name * (self.code == "blocked")
-
-
-def quote_names(names: Sequence[str], most: int = 4) -> str:
-    """List names in quotes, the first few of them, and how many more there are."""
-    shown = ", ".join(f"'{name}'" for name in names[:most])
-    return shown + (f" and {len(names) - most} more" if len(names) > most else "")

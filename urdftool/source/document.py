@@ -97,6 +97,13 @@ class Element:
         """Return the children with a tag."""
         return (child for child in self.children if child.tag == tag)
 
+    def describe(self) -> str:
+        """Return kind and name of the nearest element with a name, from this one up; or its tag."""
+        named: Element | None = self
+        while named is not None and "name" not in named.attributes:
+            named = named.parent
+        return f"{named.tag} '{named.get('name')}'" if named is not None else self.tag
+
     def walk(self) -> Iterator[Element]:
         """Yield this element and its descendants, in document order."""
         todo = [self]

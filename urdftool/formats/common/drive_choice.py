@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ...diagnostic import Severity
+from ...listing import quote_first
 from ...model.drives import get_actuator_kind, get_plugin_drives
 from ...model.elements import Joint, Robot
 from ..written import Written
@@ -203,7 +204,7 @@ def _report_added(
         written.report_loss(
             "added-servo",
             "position servos that the description does not have hold "
-            f"{len(added)} {'joint' if len(added) == 1 else 'joints'}: {_format_listed(names)}; "
+            f"{len(added)} {'joint' if len(added) == 1 else 'joints'}: {quote_first(names, 4)}; "
             "--actuators described writes only what transmissions, ros2_control and drive plugins "
             "describe",
             robot.place,
@@ -214,13 +215,8 @@ def _report_added(
         written.report_loss(
             "passive-joint",
             "casters next to driven wheels, and joints that a closed loop moves, get no servo: "
-            f"{_format_listed(left)}",
+            f"{quote_first(left, 4)}",
             robot.place,
             severity=Severity.INFO,
             data={"joints": left},
         )
-
-
-def _format_listed(names: list[str], shown: int = 4) -> str:
-    more = f" and {len(names) - shown} more" if len(names) > shown else ""
-    return ", ".join(f"'{name}'" for name in names[:shown]) + more

@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...diagnostic import Severity
+from ...listing import quote_first
 from ...model.elements import Robot
 from ...model.kinematics import UNLIMITED
 from ..written import Written
@@ -183,13 +184,13 @@ def report_gains(
     if forces:
         text += (
             "; without an effort limit, they follow from inertia and load, also the force range, "
-            f"for {_format_listed(forces)}"
+            f"for {quote_first(forces, 3)}"
         )
     bounded = [name for name, gain in assumed.items() if gain.is_bounded]
     if bounded:
         text += (
             f"; the inertia M at home and Δt = {timestep * 1000:g} ms bound them to at most "
-            f"{PART:g} M/Δt² for {_format_listed(bounded)}"
+            f"{PART:g} M/Δt² for {quote_first(bounded, 3)}"
         )
     most = max(assumed, key=lambda name: assumed[name].sag)
     sag = assumed[most].sag
@@ -199,7 +200,7 @@ def report_gains(
     if weak:
         written.advice.append(
             "the load at home is above the effort limit, so that the servo does not hold it: "
-            f"{_format_listed(weak)}"
+            f"{quote_first(weak, 3)}"
         )
     written.report_loss(
         "gains",
@@ -214,11 +215,6 @@ def report_gains(
             "names": forces,
         },
     )
-
-
-def _format_listed(names: list[str], shown: int = 3) -> str:
-    more = f" and {len(names) - shown} more" if len(names) > shown else ""
-    return ", ".join(f"'{name}'" for name in names[:shown]) + more
 
 
 def _round(value: float) -> float:

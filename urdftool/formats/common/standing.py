@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import takewhile
 from pathlib import PurePath
 
+from ...listing import list_first
 from ...model.drives import get_commanded_joints
 from ...model.elements import Joint, Link
 from ...model.kinematics import link_poses
@@ -157,9 +158,9 @@ def explain_free_base(
     ]
     driven = [name for name in wheels if name in commanded]
     if driven:
-        return f"it has driven wheels {_format_listed(driven)}"
+        return f"it has driven wheels {list_first(driven, 4)}"
     if len(wheels) > 1:
-        return f"it stands on wheels {_format_listed(wheels)}"
+        return f"it stands on wheels {list_first(wheels, 4)}"
     return _describe_feet(tree, positions, ground, stands) or _describe_legs(tree)
 
 
@@ -187,7 +188,7 @@ def _describe_feet(
     if not _is_above(tree, positions, *_get_around(feet)):
         return None
     lasts = [b for b in stands if not any(b in chains[other][:-1] for other in stands)]
-    return f"it stands on {_format_listed([ground.feet[body] for body in lasts])}"
+    return f"it stands on {list_first([ground.feet[body] for body in lasts], 4)}"
 
 
 def _describe_legs(tree: RigidTree) -> str | None:
@@ -199,7 +200,7 @@ def _describe_legs(tree: RigidTree) -> str | None:
         if body not in inner and body != tree.root.name and _has_word(members, FEET)
     }
     legs = _keep_first(_keep_own(chains))
-    return f"it has legs: {_format_listed(list(legs))}" if len(legs) > 1 else None
+    return f"it has legs: {list_first(list(legs), 4)}" if len(legs) > 1 else None
 
 
 def _describe_flight(tree: RigidTree) -> str | None:
@@ -208,7 +209,7 @@ def _describe_flight(tree: RigidTree) -> str | None:
     others = _OF_ROTORS | ROTORS | set(_split_words(robot.name))
     rotors = [link.name for link in robot.links if _is_rotor(_split_words(link.name), others)]
     if len(rotors) > 1:
-        return f"it has rotors: {_format_listed(rotors)}"
+        return f"it has rotors: {list_first(rotors, 4)}"
     stem = "" if robot.source is None else PurePath(robot.source.path).stem
     for name in (robot.name, stem):
         if FLYING & set(_split_words(name)):
@@ -336,8 +337,3 @@ def _get_around(boxes: Iterable[Bounds]) -> Bounds:
     low, high = ([pick(axis) for axis in zip(*corners, strict=True)]
                  for pick, corners in ((min, lows), (max, highs)))  # fmt: skip
     return (low[0], low[1], low[2]), (high[0], high[1], high[2])
-
-
-def _format_listed(names: list[str], shown: int = 4) -> str:
-    more = f" and {len(names) - shown} more" if len(names) > shown else ""
-    return ", ".join(names[:shown]) + more

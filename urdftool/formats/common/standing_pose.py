@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from ...diagnostic import Severity
 from ...errors import ModelError
+from ...listing import list_first
 from ...model.pose import Pose
 from ...model.start import start_positions
 from ..written import Written
@@ -211,12 +212,11 @@ def _report_bent(
     names = [joint.name for leg in legs for joint in leg.joints]
     clamped = [name for name in names if name in home.clamped]
     why = f" ('{clamped[0]}' cannot be at zero)" if clamped else ""
-    shown = ", ".join(f"'{name}' {found[name]:.3g}" for name in names[:3])
-    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
+    shown = list_first([f"'{name}' {found[name]:.3g}" for name in names], 3)
     written.report_loss(
         "standing",
         f"the home position bends the {len(legs)} legs so that each foot is below its hip{why}: "
-        f"{shown}{more}; --pose JOINT=VALUE sets others",
+        f"{shown}; --pose JOINT=VALUE sets others",
         tree.robot.place,
         severity=Severity.INFO,
         data={"positions": {name: found[name] for name in names}},

@@ -17,6 +17,7 @@ from pathlib import Path
 from lxml import etree
 
 from ...errors import MissingDependency
+from ...listing import list_first
 from ...model.mechanism import ContactExclusion
 from ..written import Written
 from .body import Bodies
@@ -224,6 +225,5 @@ def _report(structure: Structure, pairs: list[Pair], options: Options, written: 
 
 
 def _format_named(pairs: list[Pair]) -> str:
-    shown = [f"'{p.one}' and '{p.other}' {p.depth * 1000:.3g} mm" for p in pairs[:SHOWN]]
-    more = f" and {len(pairs) - SHOWN} more" if len(pairs) > SHOWN else ""
-    return ", ".join(shown) + more
+    named = [f"'{p.one}' and '{p.other}' {p.depth * 1000:.3g} mm" for p in pairs]
+    return list_first(named, SHOWN)

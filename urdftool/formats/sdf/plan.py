@@ -11,11 +11,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ...mechanics.spatial_inertia import SpatialInertia, combine, link_inertia
-from ...mechanics.tensor import ROUNDING, get_excess
 from ...model.block_elements import list_part_elements
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import link_poses
 from ...model.pose import IDENTITY, Pose
+from ..common.inertia_surplus import is_consistent
 from ..common.lumping import LumpingPlan, plan_lumping
 
 WORLD = "world"
@@ -67,7 +67,7 @@ def make_plan(robot: Robot, *, lump: bool) -> Plan:
     masses = {name: link_inertia(robot.link[name]) for name in links}
     for name in links:
         joint = loose.get(name)
-        if joint is not None and (lump or not _is_physical(masses[name])):
+        if joint is not None and (lump or not is_consistent(masses[name])):
             plan.dissolved.add(joint.name)
     if not lump:
         _dissolve_groups(robot, plan, loose, masses)
@@ -100,11 +100,6 @@ def _senses_force(robot: Robot, joint: Joint) -> bool:
     )
 
 
-def _is_physical(mass: SpatialInertia) -> bool:
-    """Tell whether a link with these mass properties can be a link of its own."""
-    return mass.mass > 0 and get_excess(mass.tensor, mass.mass) <= ROUNDING
-
-
 def _dissolve_groups(
     robot: Robot, plan: Plan, loose: dict[str, Joint], masses: dict[str, SpatialInertia]
 ) -> None:
@@ -120,10 +115,10 @@ def _dissolve_groups(
         return combine(masses[n].transform(poses[n]) for n in members)
 
     for top in links:
-        if group[top] != top or _is_physical(total({top})):
+        if group[top] != top or is_consistent(total({top})):
             continue
         tops, chosen = {top}, []
-        while not _is_physical(total(tops)):
+        while not is_consistent(total(tops)):
             joint = next(
                 (j for c, j in loose.items() if (group[c] in tops) != (group[j.parent] in tops)),
                 None,
@@ -132,7 +127,7 @@ def _dissolve_groups(
                 break
             chosen.append(joint)
             tops |= {group[joint.child], group[joint.parent]}
-        if _is_physical(total(tops)):
+        if is_consistent(total(tops)):
             plan.dissolved |= {joint.name for joint in chosen}
             groups = _group(robot, plan)
             group = groups.top

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from lxml import etree
 
 from ...diagnostic import Severity
+from ...listing import list_first
 from ...model.elements import Robot
 from ...model.numbers import number_text
 from ...model.pose import IDENTITY
@@ -66,11 +67,10 @@ def _describe_home(home: Mapping[str, float]) -> str:
     """Describe the joint positions that an SDF does not hold; empty if there are none."""
     if not home:
         return ""
-    listed = ", ".join(f"'{name}' {value:.3g}" for name, value in list(home.items())[:3])
-    more = f" and {len(home) - 3} more" if len(home) > 3 else ""
+    listed = list_first([f"'{name}' {value:.3g}" for name, value in home.items()], 3)
     return (
         "; SDF has no initial joint positions, so joints start at zero or the limit nearest to it, "
-        f"not at the home of export mjcf: {listed}{more}"
+        f"not at the home of export mjcf: {listed}"
     )
 
 
@@ -93,13 +93,12 @@ def _report_overlaps(
     if finding is None:
         return
     pairs = finding.data.get("pairs", ())
-    names = ", ".join(f"'{one}' and '{other}'" for one, other in pairs[:_SHOWN])
-    more = f" and {len(pairs) - _SHOWN} more" if len(pairs) > _SHOWN else ""
+    names = list_first([f"'{one}' and '{other}'" for one, other in pairs], _SHOWN)
     count = f"{len(pairs)} pairs of links overlap" if len(pairs) > 1 else "2 links overlap"
     written.report_loss(
         "overlap",
         f"{count} at the start, and Gazebo pushes them apart, since <self_collide> is set: "
-        f"{names}{more}; SDF has no pairs without contact",
+        f"{names}; SDF has no pairs without contact",
         robot.place,
         data={"pairs": pairs},
     )

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ...diagnostic import Severity
 from ...errors import ModelError
+from ...listing import quote_first
 from ...model.elements import Joint, Robot
 from ...model.mechanism import Base
 from ...model.selection import list_below, measure_tree, select_links
@@ -24,7 +25,7 @@ def take_tree(robot: Robot, root: str, written: Written) -> Robot:
     """
     tops = _list_trees(robot)
     if root and root not in tops:
-        trees = f"its trees begin at {_format_listed(list(tops))}" if tops else "it is one tree"
+        trees = f"its trees begin at {quote_first(list(tops), 4)}" if tops else "it is one tree"
         raise ModelError(f"the model has no tree with the root link '{root}'; {trees}")
     if not tops:
         return robot
@@ -59,7 +60,7 @@ def _report_others(robot: Robot, others: list[str], written: Written) -> None:
     written.report_loss(
         "tree",
         f"bodies next to the robot are left out, since a URDF describes one: {len(others)} trees "
-        f"that begin at {_format_listed(others)}; --root {others[0]} exports that one",
+        f"that begin at {quote_first(others, 4)}; --root {others[0]} exports that one",
         robot.link[others[0]].place,
         kind="link",
         name=others[0],
@@ -80,8 +81,3 @@ def _report_world(robot: Robot, written: Written) -> None:
             name=WORLD,
             severity=Severity.INFO,
         )
-
-
-def _format_listed(names: list[str], shown: int = 4) -> str:
-    more = f" and {len(names) - shown} more" if len(names) > shown else ""
-    return ", ".join(f"'{name}'" for name in names[:shown]) + more

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...diagnostic import Severity
+from ...listing import quote_first
 from ...model.drives import list_servo_joints
 from ...model.elements import Joint
 from ...model.mechanism import JointActuator
@@ -177,9 +178,9 @@ def _report_missing_gains(
         "has no gains: they apply the commanded effort"
     )
     if servos:
-        more = f" and {len(servos) - 3} more" if len(servos) > 3 else ""
-        shown = ", ".join(f"'{name}'" for name in servos[:3])
-        text += f"; {shown}{more} have a position or velocity interface, which needs gains"
+        text += (
+            f"; {quote_first(servos, 3)} have a position or velocity interface, which needs gains"
+        )
     written.report_loss(
         "gains",
         f"{text}; --actuator-config sets kp and kd",

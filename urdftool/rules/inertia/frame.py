@@ -103,7 +103,7 @@ def compute_tensor_about_com(
     if other is not None and other.kind != "origin":
         return None
     solid = compute_solid_tensor(link)
-    if solid is not None and not _has_mesh(link):
+    if solid is not None and not has_mesh(link):
         size = _compute_norm(solid)
         if (
             _compute_distance(right, solid) <= UNIFORM * size
@@ -143,7 +143,7 @@ def compute_tensor_about_center(
     shifted = shift_to_com(rotate_tensor(six, rotation), mass, center)
     right = rotate_tensor(shifted, transpose(rotation))
     solid = compute_solid_tensor(link)
-    if solid is not None and not _has_mesh(link):
+    if solid is not None and not has_mesh(link):
         for one in (six, right):
             if _compute_distance(one, solid) <= UNIFORM * _compute_norm(solid):
                 return one
@@ -165,7 +165,8 @@ def _explains_products(tensor: SymmetricTensor, shifted: SymmetricTensor) -> boo
     return before > 0.05 * max(tensor[0], tensor[3], tensor[5]) and after < 0.5 * before
 
 
-def _has_mesh(link: Link) -> bool:
+def has_mesh(link: Link) -> bool:
+    """Tell whether one of a link's visuals or collisions is a mesh."""
     shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
     return any(isinstance(shape.geometry, Mesh) for shape in shapes)
 

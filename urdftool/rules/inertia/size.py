@@ -16,7 +16,7 @@ from ...mechanics.mass_bounds import (
 )
 from ...mechanics.tensor import SymmetricTensor, compute_principal_moments, rotate_tensor
 from ...model.attached import find_attached_links
-from ...model.elements import Collision, Link, Mesh, Robot, Visual
+from ...model.elements import Link, Robot
 from ...model.pose import make_pose
 from ...source.document import Element
 from ..fix import FixContext, Proposal
@@ -33,7 +33,7 @@ from .corrections import (
     write_tensor,
 )
 from .density import find_outliers
-from .frame import compute_tensor_about_com
+from .frame import compute_tensor_about_com, has_mesh
 from .known_size import measure_known_size
 from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
 from .solids import compute_solid_moments, describe_solid, is_dummy
@@ -331,12 +331,6 @@ def write_inertia_that_fits(problem: Problem, context: FixContext) -> Proposal |
     if not certain and inertial is not None and inertial.inertia is not None:
         return correct_slip(link, inertial, inertial.inertia)
     return write_meant_inertia(problem, context)
-
-
-def has_mesh(link: Link) -> bool:
-    """Tell whether one of a link's visuals or collisions is a mesh."""
-    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
-    return any(isinstance(shape.geometry, Mesh) for shape in shapes)
 
 
 @rule(

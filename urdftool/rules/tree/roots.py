@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...listing import quote_first
 from ...model.elements import Joint, Link, Robot
 from ..rule import ANY_FORMAT, ERROR, Problem, rule
 from ..unexpanded import is_unexpanded
@@ -58,12 +59,11 @@ def report_every_root(robot: Robot) -> Iterator[Problem]:
 
 
 def _describe_roots(main: Link, others: list[Link]) -> str:
-    names = ", ".join(f"'{link.name}'" for link in others[:_SHOWN])
-    more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
+    names = quote_first([link.name for link in others], _SHOWN)
     if len(others) == 1:
         message = f"link {names} and root '{main.name}' have no parent joint; connect them"
     else:
-        message = f"links {names}{more} and root '{main.name}' have no parent joint; connect them"
+        message = f"links {names} and root '{main.name}' have no parent joint; connect them"
     return f"{message} with joints"
 
 

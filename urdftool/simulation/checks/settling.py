@@ -8,10 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...diagnostic import Severity
+from ...listing import quote_first
 from ...model.elements import Robot
 from ..element_names import name_element
 from ..engines.registry import name_alternative
-from ..fault import Fault, quote_names
+from ..fault import Fault
 from ..recording import Array, Recording
 from ..run import Run
 from .final_state import FinalState
@@ -134,11 +135,11 @@ def diagnose_motion(run: Run, drift: float) -> str:
     swinging = [joint.name for column, joint in enumerate(joints) if is_swinging(run, column)]
     if swinging:
         if len(swinging) > 1:
-            return f"joints {quote_names(swinging)} oscillate about their targets"
-        return f"joint {quote_names(swinging)} oscillates about its target"
+            return f"joints {quote_first(swinging, 4)} oscillate about their targets"
+        return f"joint {quote_first(swinging, 4)} oscillates about its target"
     weak = [j.name for column, j in enumerate(joints) if moves[column] and _yields(run, column)]
     if weak:
-        return f"effort limit of joint {quote_names(weak)} is too low to hold the load"
+        return f"effort limit of joint {quote_first(weak, 4)} is too low to hold the load"
     if not run.bodies.fixed_base and drift > run.bodies.size:
         return "the robot rolls or slides along the ground"
     velocities = np.abs(np.nan_to_num(recording.velocities[-1]))

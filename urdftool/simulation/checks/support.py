@@ -8,9 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...diagnostic import Severity
+from ...listing import quote_first
 from ...model.elements import Robot
 from ...rules.gazebo.contact import get_contact_role
-from ..fault import Fault, quote_names
+from ..fault import Fault
 from ..recording import GROUND, Contact
 from ..run import Run
 from ..shapes import compute_lowest_height
@@ -42,7 +43,7 @@ def _report_unsupported(robot: Robot, run: Run, state: FinalState) -> Iterator[F
     carried = run.recording.carried
     least = max(bounds.support_margin * run.bodies.size, bounds.support_margin_min)
     root = robot.link[run.bodies.bodies[0].name]
-    names = quote_names(_list_supporting_links(run))
+    names = quote_first(_list_supporting_links(run), 4)
     inner = _list_internal_overlaps(run)
     if weight <= 0:
         what = "no gravity acts on the robot, so the ground does not carry it"
@@ -98,7 +99,7 @@ def _report_wheels_in_the_air(robot: Robot, run: Run, state: FinalState) -> Iter
     yield Fault(
         "wheels-off-ground",
         Severity.ERROR,
-        f"no wheel carries the robot, which rests on {quote_names(carrying)}",
+        f"no wheel carries the robot, which rests on {quote_first(carrying, 4)}",
         robot.link[name].place,
         "link",
         name,

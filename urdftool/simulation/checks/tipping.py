@@ -8,8 +8,9 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from ...diagnostic import Severity
+from ...listing import quote_first
 from ...model.elements import Robot
-from ..fault import Fault, quote_names
+from ..fault import Fault
 from ..run import Run
 from .final_state import FinalState, find_initial_support_links
 
@@ -43,10 +44,10 @@ def _explain_why_tilted(run: Run, state: FinalState) -> str:
     if state.margin is not None and state.margin < 0:
         why = "the center of mass is outside the support polygon"
     elif state.supports:
-        why = f"now supported by {quote_names(state.supports)}"
+        why = f"now supported by {quote_first(state.supports, 4)}"
     else:
         why = "no link makes contact with the ground"
-    stood = f"initially supported by {quote_names(names)}; " if names else ""
+    stood = f"initially supported by {quote_first(names, 4)}; " if names else ""
     return f"{stood}{why}. Use --fixed-base if the robot is mounted"
 
 
@@ -98,7 +99,7 @@ def _format_why(run: Run, rolled: Sequence[str], slick: Sequence[str]) -> str:
         held_how = "the effort limit is too low to hold them" if held else "they are not held"
         return f"the wheels turned, because {held_how}"
     if slick:
-        return f"friction of {quote_names(slick)} is too low for the slope"
+        return f"friction of {quote_first(slick, 4)} is too low for the slope"
     if slope and run.settings.friction < abs(math.tan(slope)):
         return "--friction is too low for the slope"
     return "contacts push the robot, or it rolls"
