@@ -17,13 +17,7 @@ from ..source.document import Element, parse, read_file
 from ..source.packages import find_own_package
 from .collect import is_outside
 from .defect import OF_SOURCE, Defect
-from .manifest import (
-    MANIFEST,
-    compute_digest,
-    list_known_missing,
-    parse_manifest,
-    read_digests,
-)
+from .manifest import MANIFEST, compute_digest, list_known_missing, parse_manifest, read_digests
 from .output import is_zip
 from .references import find_references, has_references, list_readings
 from .zip_file import open_zip

@@ -73,11 +73,7 @@ def command(
     from ..simulation.mesh_cache import set_cache_folder
     from .cache_options import choose_cache_folder
     from .load_tolerant import load_tolerant
-    from .simulate_control import (
-        apply_controllers,
-        report_start,
-        take_robot_of_scene,
-    )
+    from .simulate_control import apply_controllers, report_start, take_robot_of_scene
     from .simulate_fleet import Fleet, simulate_fleet
     from .simulate_one import print_old_thresholds, read_configured_thresholds, simulate_one
     from .simulate_options import make_settings

@@ -13,12 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import ConfigError
-from ..mechanics.reference import (
-    Array,
-    Mechanics,
-    compute_mass_properties,
-    get_origin_matrix,
-)
+from ..mechanics.reference import Array, Mechanics, compute_mass_properties, get_origin_matrix
 from ..model.elements import Joint, Link, Origin, Robot
 from ..model.kinematics import get_limits
 from ..model.provenance import NOWHERE

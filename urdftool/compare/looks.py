@@ -6,11 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import UrdftoolError
-from ..model.appearance import (
-    APPEARANCE,
-    find_unknown_script,
-    get_appearance,
-)
+from ..model.appearance import APPEARANCE, find_unknown_script, get_appearance
 from ..model.elements import Geometry, Link, Mesh, Robot, Visual
 from ..model.materials import resolve_material
 from ..model.settings import Settings

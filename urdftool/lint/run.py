@@ -28,20 +28,10 @@ from ..source.location import SourceFile
 from ..source.packages import Packages
 from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
-from .imported_readers import (
-    find_imported_readers,
-    is_for_other_readers,
-    is_of_unmoved_robot,
-)
+from .imported_readers import find_imported_readers, is_for_other_readers, is_of_unmoved_robot
 from .merge import merge, sort_findings
 from .moot import Rejections
-from .motion import (
-    UNUSED_JOINT,
-    WELDED,
-    is_joint_unused,
-    is_link_unused,
-    is_welded_in_mujoco,
-)
+from .motion import UNUSED_JOINT, WELDED, is_joint_unused, is_link_unused, is_welded_in_mujoco
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .options import Options
 from .outcome import NOT_EXPANDED, Report

@@ -8,12 +8,7 @@ from ..control_characters import escape_controls
 from ..diagnostic import Severity
 from ..lint.outcome import Outcome
 from .findings import NOT_CHECKED
-from .findings_words import (
-    call_lines,
-    format_member_lines,
-    format_message,
-    format_remarks,
-)
+from .findings_words import call_lines, format_member_lines, format_message, format_remarks
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 

@@ -19,12 +19,7 @@ from ..lint.outcome import Outcome, Report
 from ..rules import FAMILY_OF
 from .findings import NOT_CHECKED, summarize
 from .findings_screen import sort_by_severity
-from .findings_words import (
-    call_lines,
-    format_member_lines,
-    format_message,
-    format_remarks,
-)
+from .findings_words import call_lines, format_member_lines, format_message, format_remarks
 from .rule_pages import format_page
 
 _PAGE = Path(__file__).with_name("findings_page.html")

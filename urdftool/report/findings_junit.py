@@ -11,12 +11,7 @@ from ..extras import make_missing_error
 from ..finding import Finding
 from ..lint.outcome import Outcome, Report
 from .findings import NOT_CHECKED
-from .findings_words import (
-    call_lines,
-    format_member_lines,
-    format_message,
-    format_remarks,
-)
+from .findings_words import call_lines, format_member_lines, format_message, format_remarks
 
 
 def to_junit(outcome: Outcome, fail_on: Severity) -> str:

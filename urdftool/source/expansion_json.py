@@ -12,15 +12,7 @@ from ..errors import PackageNotFound, SourceError, UrdftoolError, XacroError, Xm
 from .expansion import Argument, ExpandedNode, Expansion, Lookup, LookupKind, Warned
 from .location import Call, Place, SourceFile
 from .well_formed import MAX_DEPTH
-from .xacro_tree import (
-    CDATA,
-    COMMENT,
-    INSTRUCTION,
-    TEXT,
-    Characters,
-    XacroDocument,
-    XacroElement,
-)
+from .xacro_tree import CDATA, COMMENT, INSTRUCTION, TEXT, Characters, XacroDocument, XacroElement
 
 _ERRORS = {kind.__name__: kind for kind in (SourceError, XmlError, XacroError, PackageNotFound)}
 

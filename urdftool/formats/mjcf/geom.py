@@ -6,12 +6,7 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from ...model.elements import (
-    Collision,
-    Link,
-    Mesh,
-    Visual,
-)
+from ...model.elements import Collision, Link, Mesh, Visual
 from ...model.numbers import format_numbers_text
 from ...model.shapes import get_shape_name
 from ..common.naming import UniqueNames

@@ -11,15 +11,7 @@ from ...model.elements import Vector
 from ...model.kinematics import link_poses
 from ...model.mechanism import Closure
 from ...model.numbers import format_numbers_text
-from ...model.pose import (
-    Pose,
-    add,
-    compute_dot,
-    compute_norm,
-    get_origin_at,
-    make_pose,
-    rotate,
-)
+from ...model.pose import Pose, add, compute_dot, compute_norm, get_origin_at, make_pose, rotate
 from ..common.naming import UniqueNames
 from ..written import Written
 from .copied import get_start, has_copies

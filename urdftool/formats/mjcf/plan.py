@@ -31,12 +31,7 @@ from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
 from .copied import has_copied_home, has_copies
-from .for_rl import (
-    add_rotors,
-    find_feet,
-    list_joint_sensors,
-    set_foot_contact,
-)
+from .for_rl import add_rotors, find_feet, list_joint_sensors, set_foot_contact
 from .gazebo import USUAL_FRICTION
 from .home import Home, place_home
 from .inertials import compute_inertials

@@ -26,22 +26,8 @@ from ...source.document import STDIN, Document, Element
 from ...source.location import SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
-from ..reading import (
-    LARGEST,
-    Losses,
-    Reading,
-    choose_limits,
-    open_description,
-    report_limits,
-)
-from .read_compile import (
-    FOR_FILES,
-    LIMITS,
-    MOST_MEMORY,
-    Compiled,
-    compile_text,
-    import_library,
-)
+from ..reading import LARGEST, Losses, Reading, choose_limits, open_description, report_limits
+from .read_compile import FOR_FILES, LIMITS, MOST_MEMORY, Compiled, compile_text, import_library
 from .read_context import Context
 from .read_extras import add_extras
 from .read_native import add_native

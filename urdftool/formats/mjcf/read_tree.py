@@ -12,17 +12,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ...diagnostic import Severity
-from ...model.elements import (
-    Axis,
-    Dynamics,
-    Inertia,
-    Inertial,
-    Joint,
-    Limit,
-    Link,
-    Robot,
-    Vector,
-)
+from ...model.elements import Axis, Dynamics, Inertia, Inertial, Joint, Limit, Link, Robot, Vector
 from ...model.kinematics import UNLIMITED, compute_motion
 from ...model.mechanism import Base, Frame
 from ...model.part import ZERO
@@ -32,13 +22,7 @@ from ...model.settings import JOINTS_OF_MUJOCO, LINKS_OF_MUJOCO, RESISTANCE, Set
 from ...model.world import WORLD
 from ..reading import take_name
 from .read_compile import Row
-from .read_context import (
-    Context,
-    name_bodies,
-    name_joints,
-    read_pose,
-    read_settings,
-)
+from .read_context import Context, name_bodies, name_joints, read_pose, read_settings
 
 VELOCITY = "_velocity_limit"
 """End of the name of a number in ``<custom>``: the velocity limit of a joint, which MJCF lacks."""

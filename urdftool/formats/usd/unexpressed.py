@@ -8,11 +8,7 @@ from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.part import Part
 from ...model.settings import SPRING, Setting
-from ..common.unexpressed import (
-    report_looks,
-    report_unexpressed,
-    report_unwritten_settings,
-)
+from ..common.unexpressed import report_looks, report_unexpressed, report_unwritten_settings
 from ..written import Written
 
 EXPRESSED = (

@@ -8,17 +8,7 @@ from typing import Literal, NamedTuple
 
 from ...model.attached import find_attached_links
 from ...model.bounds import Bounds, compute_size
-from ...model.elements import (
-    ZERO,
-    Collision,
-    Geometry,
-    Joint,
-    Link,
-    Mesh,
-    Robot,
-    Vector,
-    Visual,
-)
+from ...model.elements import ZERO, Collision, Geometry, Joint, Link, Mesh, Robot, Vector, Visual
 from ...model.pose import IDENTITY, Pose, compute_norm, make_pose
 from ...model.read import parse_numbers
 from ..mesh.link_extents import LinkExtents, ShapeKind, get_extents

@@ -9,17 +9,7 @@ from statistics import fmean, median
 
 from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.bounds import Bounds, compute_size, has_extent
-from ...model.elements import (
-    Box,
-    Collision,
-    Cylinder,
-    Joint,
-    Link,
-    Mesh,
-    Robot,
-    Sphere,
-    Visual,
-)
+from ...model.elements import Box, Collision, Cylinder, Joint, Link, Mesh, Robot, Sphere, Visual
 from ...model.pose import make_pose
 from ..fix import FixContext, Proposal, unsafe
 from ..gazebo.contact import compute_axis_elevation

@@ -6,14 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...model.gazebo_plugins import find_classic_parameters
-from ..fix import (
-    FixContext,
-    Proposal,
-    get_written_text,
-    rename_element,
-    replace_element,
-    unsafe,
-)
+from ..fix import FixContext, Proposal, get_written_text, rename_element, replace_element, unsafe
 from ..rule import UNSAFE, WARNING, Problem, rule
 
 APPLIES_TO = ("plugin",)

@@ -11,15 +11,7 @@ from ...source.description import Description
 from ...source.document import parse, parse_once
 from ..control.dependence import OF_GAZEBO, depends_on_control
 from ..cross_file_references import check_not_included
-from ..fix import (
-    Change,
-    FixContext,
-    Proposal,
-    append_child,
-    escape_attribute,
-    is_computed,
-    unsafe,
-)
+from ..fix import Change, FixContext, Proposal, append_child, escape_attribute, is_computed, unsafe
 from ..joint.range import is_locked
 from ..renaming import get_part, rename_part
 from ..rule import ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule

@@ -6,14 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from ...mechanics.mass_bounds import (
-    ALLOWED,
-    CERTAIN,
-    ROUNDING,
-    SHORTEST,
-    check_spread,
-    name_shapes,
-)
+from ...mechanics.mass_bounds import ALLOWED, CERTAIN, ROUNDING, SHORTEST, check_spread, name_shapes
 from ...mechanics.tensor import SymmetricTensor, compute_principal_moments, rotate_tensor
 from ...model.attached import find_attached_links
 from ...model.elements import Link, Robot

@@ -12,15 +12,7 @@ from ...model.actuation import find_actuated_joints, find_measured_joints, is_pa
 from ...model.elements import Joint, Limit, Robot
 from ...model.read import number
 from ...model.settings import MAGNITUDES, RESISTANCE_OF_URDF
-from ..fix import (
-    FixContext,
-    Proposal,
-    remove_element,
-    remove_sign,
-    replace_element,
-    safe,
-    unsafe,
-)
+from ..fix import FixContext, Proposal, remove_element, remove_sign, replace_element, safe, unsafe
 from ..gazebo.contact import is_wheel
 from ..rule import ANY_FORMAT, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
 from ..symmetry import find_twins

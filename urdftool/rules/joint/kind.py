@@ -15,18 +15,7 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from ..rule import (
-    ANY_FORMAT,
-    ERROR,
-    GAZEBO,
-    INFO,
-    ROS,
-    SAFE,
-    UNSAFE,
-    Problem,
-    rule,
-    select_holding,
-)
+from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, ROS, SAFE, UNSAFE, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
 from ..xml.vocabulary_table import suggest_word
 

@@ -15,15 +15,7 @@ from ...model.read import parse_numbers
 from ...source.description import Description
 from ...workspace import Workspace, memoize_by_workspace
 from ..file_rewrites import MIRRORED
-from ..fix import (
-    Change,
-    FixContext,
-    Proposal,
-    remove_attribute,
-    set_attribute,
-    substitute,
-    unsafe,
-)
+from ..fix import Change, FixContext, Proposal, remove_attribute, set_attribute, substitute, unsafe
 from ..mujoco import keeps_visuals
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from .changes import find_uses, write_new_file

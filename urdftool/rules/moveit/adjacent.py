@@ -11,14 +11,7 @@ from ...source.document import Document, Element
 from ..collision.convex_bodies import get_convex_bodies
 from ..collision.exact_contact import find_contact
 from ..collision.overlap import has_mesh
-from ..fix import (
-    FixContext,
-    Proposal,
-    append_child,
-    escape_attribute,
-    insert_after,
-    unsafe,
-)
+from ..fix import FixContext, Proposal, append_child, escape_attribute, insert_after, unsafe
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from .semantic import get_srdf_documents
 

@@ -15,15 +15,7 @@ from ...source.document import Element
 from ...source.location import Place
 from ...source.nearby_files import read_optional_file
 from ...workspace import Workspace
-from ..fix import (
-    FixContext,
-    Proposal,
-    Span,
-    append_child,
-    safe,
-    substitute,
-    unsafe,
-)
+from ..fix import FixContext, Proposal, Span, append_child, safe, substitute, unsafe
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses
 from ..rule import BOTH, ERROR, INFO, ROS, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import fold, quote

@@ -6,15 +6,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Mesh, Robot
 from ..cross_file_references import check_not_included
-from ..fix import (
-    Change,
-    FixContext,
-    Lines,
-    Proposal,
-    escape_attribute,
-    is_computed,
-    unsafe,
-)
+from ..fix import Change, FixContext, Lines, Proposal, escape_attribute, is_computed, unsafe
 from ..gazebo.contact import get_contact_role
 from ..rule import INFO, UNSAFE, Problem, rule
 

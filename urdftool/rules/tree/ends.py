@@ -21,16 +21,7 @@ from ..fix import (
     unsafe,
     write_suggestion,
 )
-from ..rule import (
-    ANY_FORMAT,
-    BOTH,
-    ERROR,
-    INFO,
-    UNSAFE,
-    Problem,
-    rule,
-    select_holding,
-)
+from ..rule import ANY_FORMAT, BOTH, ERROR, INFO, UNSAFE, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
 from ..words import find_nearest, quote, suggest_name
 from ..xml.vocabulary_table import find_misspelled_children, is_for_another_reader

@@ -6,26 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ...model.elements import Joint, Link, Robot
 from ...source.description import Description
-from ..fix import (
-    FixContext,
-    Proposal,
-    set_attribute,
-    unsafe,
-)
+from ..fix import FixContext, Proposal, set_attribute, unsafe
 from ..gazebo.lumped_model import find_kept_links, find_sdf_joints, is_joint_kept, is_named_as_link
 from ..gazebo.lumping import is_lumped
 from ..renaming import rename_part
-from ..rule import (
-    ANY_FORMAT,
-    ERROR,
-    GAZEBO,
-    INFO,
-    UNSAFE,
-    WARNING,
-    Problem,
-    rule,
-    select_holding,
-)
+from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, UNSAFE, WARNING, Problem, rule, select_holding
 from ..xml.vocabulary_table import find_misspelled_children
 
 

@@ -8,12 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...diagnostic import make_deprecated_name
-from ...model.pose import (
-    multiply_matrices,
-    rotation_from_quaternion,
-    rotation_from_rpy,
-    transpose,
-)
+from ...model.pose import multiply_matrices, rotation_from_quaternion, rotation_from_rpy, transpose
 from ..recording import GROUND, Array
 from ..run import Run
 from ..shapes import Shape, compute_lowest_height

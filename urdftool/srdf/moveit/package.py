@@ -31,18 +31,8 @@ from .description_files import (
     make_mock_hardware,
 )
 from .existing_srdf import SrdfChanges
-from .package_files import (
-    make_assistant_settings,
-    make_build_file,
-    make_manifest,
-    make_rviz,
-)
-from .parameters import (
-    CARTESIAN_LIMITS,
-    make_initial_positions,
-    make_joint_limits,
-    make_kinematics,
-)
+from .package_files import make_assistant_settings, make_build_file, make_manifest, make_rviz
+from .parameters import CARTESIAN_LIMITS, make_initial_positions, make_joint_limits, make_kinematics
 from .yaml_text import Tree, append_items, complete, format_yaml
 
 _MOVEIT, _ROS2 = "config/moveit_controllers.yaml", "config/ros2_controllers.yaml"

@@ -25,12 +25,7 @@ from ...written import Written
 from ..options import Options
 from ..read import read
 from ..write import write
-from .declared_losses import (
-    EXCUSES,
-    list_added_bodies,
-    list_dropped_parts,
-    name_blocks,
-)
+from .declared_losses import EXCUSES, list_added_bodies, list_dropped_parts, name_blocks
 from .loader import run_loads
 from .pair import Pair
 from .world import compare_world
