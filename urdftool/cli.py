@@ -100,12 +100,7 @@ class Commands(CommandGroup):
     help="Configuration file.  [default: the nearest pyproject.toml or urdftool.toml]",
 )
 @click.pass_context
-def main(
-    ctx: click.Context,
-    version: bool,
-    color: str,
-    config: str | None,
-) -> None:
+def main(ctx: click.Context, version: bool, color: str, config: str | None) -> None:
     """Check, fix, convert and simulate robot descriptions in URDF and xacro, without ROS."""
     console = ctx.ensure_object(Console)
     console.color, console.config = color, config

@@ -54,9 +54,7 @@ def get_size(geometry: Geometry) -> tuple[float, float, float] | None:
     return None
 
 
-def measure_corner_distance(
-    *boxes: tuple[tuple[float, float, float], Array],
-) -> float:
+def measure_corner_distance(*boxes: tuple[tuple[float, float, float], Array]) -> float:
     """Return the largest distance of a corner of one of two boxes to the nearest of the other [m].
 
     It is 0 for boxes that are one solid, such as a cube that is turned by 90°.
