@@ -275,7 +275,7 @@ def find_element(problem: Problem, root: Element | None = None) -> Element | Non
     return nearest
 
 
-def remove_sign(problem: Problem) -> Proposal | None:
+def remove_sign(problem: Problem, _context: object = None) -> Proposal | None:
     """Propose to remove the minus sign of the attribute that a problem points at."""
     found = find_attribute(problem)
     if found is None:
@@ -291,7 +291,7 @@ def get_suggestion(problem: Problem, wrong: str) -> str:
     return right if right and is_close_enough(right, wrong) else ""
 
 
-def write_suggestion(problem: Problem) -> Proposal | None:
+def write_suggestion(problem: Problem, _context: object = None) -> Proposal | None:
     """Write the suggested name into the attribute or text that a problem points at."""
     found = find_attribute(problem)
     if found is not None:

@@ -108,10 +108,7 @@ def nonstandard_interface_name(robot: Robot) -> Iterator[Problem]:
                     )
 
 
-@nonstandard_interface_name.fix(UNSAFE)
-def write_interface(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested name."""
-    return write_suggestion(problem)
+nonstandard_interface_name.fix(UNSAFE)(write_suggestion)
 
 
 @rule(

@@ -254,10 +254,7 @@ def ros2_control_unknown_imu_interface(robot: Robot) -> Iterator[Problem]:
                     )
 
 
-@ros2_control_unknown_imu_interface.fix(UNSAFE)
-def write_interface(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested state."""
-    return write_suggestion(problem)
+ros2_control_unknown_imu_interface.fix(UNSAFE)(write_suggestion)
 
 
 @rule(

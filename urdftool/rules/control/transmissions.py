@@ -79,10 +79,7 @@ def transmission_unknown_joint(
                 )
 
 
-@transmission_unknown_joint.fix(UNSAFE)
-def write_joint(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested joint, which no other transmission drives."""
-    return write_suggestion(problem)
+transmission_unknown_joint.fix(UNSAFE)(write_suggestion)
 
 
 @rule(
@@ -262,10 +259,7 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-@unknown_hardware_interface.fix(UNSAFE)
-def write_interface(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested interface."""
-    return write_suggestion(problem)
+unknown_hardware_interface.fix(UNSAFE)(write_suggestion)
 
 
 @rule(

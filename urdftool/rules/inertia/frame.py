@@ -11,7 +11,6 @@ from ...mechanics.typo_detection import is_consistent
 from ...model.bounds import Bounds
 from ...model.elements import Collision, Inertial, Link, Mesh, Robot, Vector, Visual
 from ...model.pose import make_pose, transpose
-from ..fix import FixContext, Proposal
 from ..mesh.link_extents import get_extents
 from ..rule import UNSAFE, WARNING, Problem, rule
 from .corrections import write_proposed_inertia
@@ -70,10 +69,7 @@ def inertia_about_link_frame(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@inertia_about_link_frame.fix(UNSAFE)
-def write_inertia_about_center(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the tensor about the center of mass."""
-    return write_proposed_inertia(problem, context)
+inertia_about_link_frame.fix(UNSAFE)(write_proposed_inertia)
 
 
 def compute_tensor_about_com(

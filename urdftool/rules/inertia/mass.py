@@ -11,7 +11,7 @@ from ...model.bounds import Bounds
 from ...model.elements import Link, Robot
 from ...model.millimeters import find_shapes_in_millimeters
 from ...source.location import Place
-from ..fix import FixContext, Proposal, remove_sign
+from ..fix import remove_sign
 from ..mesh.link_extents import LinkExtents, get_extents
 from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..tree.mounted import is_mobile
@@ -223,10 +223,7 @@ def _select_readers_of_negative(robot: Robot, link: Link) -> list[str]:
     return ["gz, gazebo-classic"] * is_alone + ["mujoco" if is_alone and moves else "mujoco (part)"]
 
 
-@negative_mass.fix(UNSAFE)
-def write_magnitude(problem: Problem, _context: FixContext) -> Proposal | None:
-    """Write the mass without its sign."""
-    return remove_sign(problem)
+negative_mass.fix(UNSAFE)(remove_sign)
 
 
 @rule(

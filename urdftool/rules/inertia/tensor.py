@@ -128,11 +128,8 @@ def inertia_triangle_inequality(
         )
 
 
-@inertia_not_positive_definite.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
-@inertia_triangle_inequality.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
-def write_possible_inertia(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the intended inertia, or that of the geometry."""
-    return write_meant_inertia(problem, context)
+inertia_not_positive_definite.fix(UNSAFE, rests_on=MASS_IN_DOUBT)(write_meant_inertia)
+inertia_triangle_inequality.fix(UNSAFE, rests_on=MASS_IN_DOUBT)(write_meant_inertia)
 
 
 @rule(
@@ -382,11 +379,8 @@ def _is_fixed_to_more(robot: Robot, links: list[Link], smallest: float) -> bool:
     return least > smallest * most
 
 
-@zero_inertia.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
-@singular_inertia.fix(UNSAFE, rests_on=MASS_IN_DOUBT)
-def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the inertia of the geometry."""
-    return write_inertia_of_shapes(problem, context)
+zero_inertia.fix(UNSAFE, rests_on=MASS_IN_DOUBT)(write_inertia_of_shapes)
+singular_inertia.fix(UNSAFE, rests_on=MASS_IN_DOUBT)(write_inertia_of_shapes)
 
 
 @rule(

@@ -85,11 +85,8 @@ def inertia_off_by_power_of_ten(robot: Robot) -> Iterator[Problem]:
             )
 
 
-@inertia_component_typo.fix(UNSAFE)
-@inertia_off_by_power_of_ten.fix(UNSAFE)
-def write_without_slip(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the intended tensor."""
-    return write_proposed_inertia(problem, context)
+inertia_component_typo.fix(UNSAFE)(write_proposed_inertia)
+inertia_off_by_power_of_ten.fix(UNSAFE)(write_proposed_inertia)
 
 
 def find_slip(link: Link, inertial: Inertial, six: SymmetricTensor, robot: Robot) -> Slip | None:

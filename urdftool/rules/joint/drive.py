@@ -324,11 +324,8 @@ def _choose_severity(robot: Robot, joint: Joint) -> Severity | None:
     return None if robot.format == "urdf" else WARNING
 
 
-@negative_limit.fix(UNSAFE)
-@negative_dynamics.fix(UNSAFE)
-def write_magnitude(problem: Problem, _context: FixContext) -> Proposal | None:
-    """Write the number without its sign."""
-    return remove_sign(problem)
+negative_limit.fix(UNSAFE)(remove_sign)
+negative_dynamics.fix(UNSAFE)(remove_sign)
 
 
 @rule(

@@ -177,11 +177,8 @@ def srdf_unknown_joint(robot: Robot, description: Description) -> Iterator[Probl
                 )
 
 
-@srdf_unknown_link.fix(UNSAFE)
-@srdf_unknown_joint.fix(UNSAFE)
-def rename_reference(problem: Problem, context: FixContext) -> Proposal | None:
-    """Write the suggested name."""
-    return write_suggestion(problem)
+srdf_unknown_link.fix(UNSAFE)(write_suggestion)
+srdf_unknown_joint.fix(UNSAFE)(write_suggestion)
 
 
 @rule(
