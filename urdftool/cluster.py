@@ -76,17 +76,8 @@ def map_anywhere(
 ) -> Iterator[tuple[int, R]]:
     """Apply a function to tasks in processes here or on a cluster; yield results as they are ready.
 
-    Args:
-        function: Picklable function of a task.
-        tasks: Picklable tasks.
-        workers: Number of processes here.
-        scheduler: Address of a Dask scheduler to use instead.
-        on_lost: Returns the result of a task whose worker was lost.
-        on_progress: Called when a task starts or ends.
-        time_limit: Time limit of a task [s].
-        tries: Number of attempts for a task whose process here is killed.
-        isolate: Use a new process for each task.
-        preload: Modules that workers of the cluster import first.
+    Arguments are those of :func:`.parallel.map_tasks`; ``tries`` counts for a task whose process
+    here is killed, and workers of a cluster import ``preload`` first.
 
     Yields:
         The index of a task and its result.

@@ -58,10 +58,7 @@ def find_configuration(
 ) -> Configuration:
     """Return the configuration of a description.
 
-    Args:
-        file: Path of the description, or ``-``.
-        given: Configuration file named by the user; used for every description.
-        workspace: Access to files; None creates a new one.
+    One that is given counts for every description.
 
     Raises:
         ConfigError: The file cannot be read, is not valid TOML, or has an unknown table or value.

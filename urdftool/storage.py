@@ -274,10 +274,7 @@ def _has_others(folder: Path, dropped: Collection[Path]) -> bool:
 def _take_place(staged: Path, folder: Path, old: Path) -> None:
     """Rename a folder to a name that may exist; where possible, the two names are exchanged.
 
-    Args:
-        staged: The new state.
-        folder: The name, with its previous state.
-        old: Name of the previous state for a short time, where the system cannot exchange names.
+    Where the system cannot exchange names, the previous state is ``old`` for a short time.
     """
     if not folder.exists():
         os.rename(staged, folder)

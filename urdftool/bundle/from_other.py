@@ -29,11 +29,7 @@ class Converted:
 def convert_to_urdf(robot: Robot, folder: Path, *, force: bool = False) -> Converted:
     """Convert a robot to URDF whose meshes are the files of the source.
 
-    Args:
-        robot: A robot that was read from SDF, MJCF or USD.
-        folder: An empty folder for the URDF and the meshes that are not files of the source; it
-            must exist as long as the robot is used.
-        force: Whether to continue in spite of defects of the source.
+    ``folder`` is empty, and must exist as long as the robot is used.
 
     Raises:
         Refused: The robot has defects that prevent the conversion.

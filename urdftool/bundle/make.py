@@ -105,11 +105,7 @@ def make_bundle(
 ) -> Bundle:
     """Make a bundle of a robot.
 
-    Args:
-        robot: A robot that was read from URDF or xacro.
-        options: Options; None for the defaults.
-        original: The robot in another format of which ``robot`` was made; None if there is none.
-        progress: Called with the number of stored files, that of all, and the next file.
+    ``original`` is the robot in another format of which it was made, if there is one.
 
     Raises:
         Refused: A mesh is missing or is not a mesh.

@@ -59,13 +59,7 @@ def find_references(suffix: str, data: bytes) -> list[Reference]:
 
 
 def rewrite_references(suffix: str, data: bytes, names: Mapping[str, str]) -> bytes:
-    """Replace references of a mesh or material file; return the same bytes if none changes.
-
-    Args:
-        suffix: Suffix of the file, in lower case, with its dot.
-        data: Its content.
-        names: New references by those written.
-    """
+    """Replace references of a mesh or material file; return the same bytes if none changes."""
     if all(old == new for old, new in names.items()):
         return data
     if suffix in _SPANS:

@@ -96,11 +96,7 @@ def store_assets(
 ) -> Stored:
     """Assign a path to each file, convert and reduce meshes, and rewrite references between files.
 
-    Args:
-        found: The files.
-        conversion: Conversion of meshes; None keeps them.
-        limits: Limits of visual meshes and images; None for none.
-        progress: Called with the number of stored files, that of all, and the next file.
+    Without a conversion, meshes stay; without limits, all is kept.
     """
     store = _Store(conversion, limits or Limits())
     for number, asset in enumerate(found.assets.values()):

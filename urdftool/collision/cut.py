@@ -56,10 +56,7 @@ class Cutter:
     ) -> None:
         """Set the mesh and the limits.
 
-        Args:
-            target: The mesh.
-            settings: Limits of vertices and time.
-            most: Largest number of pieces that CoACD may create; None for no limit.
+        CoACD may create ``most`` pieces; None for no limit.
         """
         self.target = target
         self.settings = settings

@@ -92,10 +92,7 @@ class ReferenceSurface:
     def __init__(self, surface: Prepared, cores: int = 1, cell: float = COARSE) -> None:
         """Store the surface; everything else is computed on demand.
 
-        Args:
-            surface: The visual.
-            cores: Number of cores to use, which does not affect results.
-            cell: Edge of a cell of the flood, relative to the size.
+        A cell of the flood is relative to the size; ``cores`` do not affect results.
         """
         self.surface = surface
         self.cores = cores

@@ -50,10 +50,7 @@ def write_all(
 ) -> None:
     """Write the files of a collision geometry: all or none.
 
-    Args:
-        files: Content by path; the last file refers to the others.
-        overwrite: Whether to replace mesh files that urdftool did not write.
-        inputs: Input files, which must not be replaced.
+    The last file refers to the others.
 
     Raises:
         OutputError: A file cannot be written; existing files are unchanged.

@@ -28,12 +28,7 @@ def compute_all(
 ) -> dict[Task, Result | UrdftoolError]:
     """Compute the result of each task, or the error.
 
-    Args:
-        tasks: The tasks; equal tasks, and equal files under different names, are computed once.
-        cache: Cache of results, to which new ones are added.
-        jobs: Number of processes; None for one per core.
-        scheduler: Address of a Dask scheduler to use instead.
-        progress: Called for every mesh.
+    Equal tasks, and equal files under different names, are computed once.
     """
     found: dict[Task, Result | UrdftoolError] = {}
     groups: dict[str, list[Task]] = {}

@@ -58,12 +58,7 @@ def determine_layout(
 ) -> Layout:
     """Determine the layout for a robot.
 
-    Args:
-        robot: The robot.
-        target: The description to write.
-        mesh_dir: Folder of the pieces; None for one in the target's folder.
-        uri: Kind of URI; ``"auto"`` for that of the robot's own meshes.
-        suffix: File suffix of the pieces.
+    Pieces without ``mesh_dir`` are in the target's folder; the URI ``auto`` is as the robot's own.
 
     Raises:
         SourceError: ``package`` is requested but the folder is not in a package.

@@ -35,10 +35,7 @@ def cover_with_spheres(
 ) -> list[Piece]:
     """Cover the exterior of a mesh with spheres.
 
-    Args:
-        target: The mesh.
-        excess: Largest distance by which a sphere may protrude, relative to the size.
-        most: Largest number of spheres; if it is not enough, the excess is larger.
+    ``excess`` is relative to the size, and larger if ``most`` spheres are not enough.
 
     Returns:
         The spheres, the largest first; few, but not provably the fewest.

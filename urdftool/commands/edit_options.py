@@ -62,13 +62,7 @@ class Words:
     """Words of a command line: a robot, its xacro arguments, and operands."""
 
     def __init__(self, words: tuple[str, ...], count: int | None, names: str) -> None:
-        """Split words.
-
-        Args:
-            words: The words.
-            count: Number of operands; None for one or more.
-            names: What they are, for the message.
-        """
+        """Split words."""
         named = [word for word in words if "=" in word and ":=" not in word]
         rest, self.arguments = split_arguments(tuple(w for w in words if w not in named))
         rest = sorted([*rest, *named], key=[*rest, *named].index)

@@ -30,13 +30,8 @@ def write_pair(
 ) -> None:
     """Write NAME.gv and NAME.pdf, and print the messages of ``urdf_to_graphiz``.
 
-    Args:
-        console: Output for messages.
-        model: Robot.
-        figure: Graph to draw.
-        source: Path of the description, whose stem is NAME for a robot without a name.
-        output: NAME that the user chose; None for the name of the robot.
-        artist: Graphviz process; None if pygraphviz is not installed: NAME.pdf is not written.
+    NAME is the output, the robot's name, or the stem of the source; without an artist there is no
+    PDF.
 
     Raises:
         MissingDependency: pygraphviz is not installed; NAME.gv is written.

@@ -77,12 +77,7 @@ def get_finder(
 ) -> Packages:
     """Return the finder of the files of a description, as the command line and configuration say.
 
-    Args:
-        console: The configuration that was named.
-        file: The description.
-        packages: Folders by package name, from the command line.
-        package_paths: Folders with packages below.
-        neighbors: Folders by package name that count as configured.
+    ``neighbors`` count as configured.
     """
     from ..configuration import find_configuration
     from ..source.document import STDIN

@@ -37,11 +37,7 @@ class Progress:
     ) -> None:
         """Start the measurement of time.
 
-        Args:
-            console: Console; nothing is shown if it is quiet, or shows no progress.
-            what: Name of the counted items, such as ``meshes``.
-            patience: Time after which progress is shown [s].
-            timed: Show the elapsed time, also between calls.
+        ``patience`` is the time after which it is shown [s]; ``timed`` shows the elapsed time.
         """
         self.what = what
         self.patience = patience

@@ -160,16 +160,7 @@ def write_pictures(
 
     Meshes that cannot be loaded are reported and not drawn.
 
-    Args:
-        console: Output for messages.
-        robot: Robot.
-        picture: File of the picture; None for none.
-        contact_sheet: File of the contact sheet; None for none.
-        size: Width and height of the picture or of a cell [pixels].
-        camera: Azimuth and elevation [degrees], and optionally distance [m].
-        pose: Joint positions by name [rad or m].
-        show: Geometry to show: ``visual``, ``collision`` or ``both``.
-        findings: Whether to check the robot and draw the findings on the picture.
+    Sizes are in pixels, the camera is azimuth and elevation [degrees], and optionally distance [m].
 
     Raises:
         ModelError: A joint position is not possible, there is nothing to draw, or no joint moves

@@ -58,13 +58,7 @@ class Check:
         return self.verdict
 
     def compare(self, difference: float, item: str, *, known: bool = False) -> None:
-        """Record a difference.
-
-        Args:
-            difference: Magnitude of the difference; NaN counts as different.
-            item: Description of the compared item.
-            known: Whether the export reported the change.
-        """
+        """Record a difference."""
         self.is_empty = False
         if difference <= self.tolerance:
             self.worst = max(self.worst, difference)

@@ -173,13 +173,8 @@ def _choose(
 ) -> Array:
     """Return the pose with the fewest differences of two bodies.
 
-    Args:
-        walk: State.
-        one: Body of the first robot.
-        two: Body of the second.
-        candidates: Poses of the second body in the first, 4 × 4.
-        prefers_first: Whether to choose the first one, unless that causes several differences and
-            another none.
+    Candidates are poses of the second body in the first, 4 × 4; the first one is preferred, unless
+    that causes several differences and another none.
     """
     different: list[Array] = []
     for pose in candidates:
@@ -395,13 +390,7 @@ def _compare_child(
 ) -> list[Match]:
     """Compare a joint and its position; return the bodies that it moves, to be compared next.
 
-    Args:
-        walk: State.
-        x: The joint in the first robot.
-        y: The joint in the second.
-        frame: Pose of the second parent body in the first, 4 × 4.
-        parent_is_known: Whether the parents correspond.
-        walk_on: Whether to compare the bodies below immediately.
+    ``frame`` is the pose of the second parent body in the first, 4 × 4.
     """
     if x.name in walk.compared:
         return []

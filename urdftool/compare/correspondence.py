@@ -132,13 +132,7 @@ def read_correspondence(path: Path, count: int) -> Correspondence:
 def parse_correspondence(
     lines: Sequence[tuple[int, Words]], count: int, path: Path | None = None
 ) -> Correspondence:
-    """Parse the lines of a correspondence; see :func:`read_correspondence`.
-
-    Args:
-        lines: Number and words of each line.
-        count: Number of robots.
-        path: File, for messages.
-    """
+    """Parse the lines of a correspondence; see :func:`read_correspondence`."""
     correspondence = Correspondence()
     for number, words in lines:
         reader = _READERS.get(words[0])

@@ -104,18 +104,7 @@ def describe_change(
     unit: str = "",
     note: str = "",
 ) -> Difference:
-    """Return a difference of a part that has one name: that in the second robot.
-
-    Args:
-        row: Its row.
-        kind: Kind of the part.
-        name: Name of the part.
-        what: The property.
-        values: Value in each robot; None where there is none.
-        sides: Part in each robot, for the places.
-        unit: Unit of the values.
-        note: Explanation.
-    """
+    """Return a difference of a part that has one name: that in the second robot."""
     one, two = (NOWHERE if side is None else side.place for side in sides)
     return Difference(row, kind, (name, name), what, values, unit, math.inf, (one, two), note)
 

@@ -42,11 +42,7 @@ def compare_dynamics(
 ) -> None:
     """Compare joint-space mass matrices and gravity forces with a fixed base, then with a free one.
 
-    Args:
-        pair: Both robots.
-        frame: Pose of the root body of the second in that of the first, 4 × 4.
-        signs: Sign of the axis of each joint, by its name in the first robot.
-        comparison: Where differences are recorded.
+    ``frame`` is the pose of the root body of the second robot in that of the first, 4 × 4.
     """
     if not set(GLOBAL_ROWS) & set(comparison.tolerances):
         return

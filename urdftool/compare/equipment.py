@@ -154,10 +154,7 @@ def _put_into_bodies(
 
     A ``connect`` has a common point, so the axes of its frame are those of the bodies.
 
-    Args:
-        closure: The loop.
-        bodies: Bodies of its robot.
-        frames: Name and pose, 4 × 4, of each body in the first robot.
+    ``frames`` are name and pose, 4 × 4, of each body in the first robot.
     """
     closure = replace(closure, type=_SAME.get(closure.type, closure.type))
     ends = []

@@ -60,13 +60,7 @@ def get_unit(joint: Joint, part: str, attribute: str) -> str:
 
 
 def list_values(a: Joint, b: Joint, *parts: str) -> Iterator[WrittenValue]:
-    """Yield the values that a joint has as attributes of its parts.
-
-    Args:
-        a: The joint in the first robot.
-        b: The joint in the second.
-        parts: Names of the parts; all if none is given.
-    """
+    """Yield the values that a joint has as attributes of its parts."""
     for part in parts or _UNITS:
         owners = one, two = getattr(a, part), getattr(b, part)
         for name in _UNITS[part]:
@@ -250,15 +244,7 @@ def _follow_chain(joint: Joint, robot: Robot) -> Mimic:
 def compare_mimic(
     pair: Pair, one: Joint, two: Joint, signs: dict[str, float], comparison: Comparison
 ) -> None:
-    """Compare the dependence of a joint on another.
-
-    Args:
-        pair: Both robots.
-        one: The joint in the first.
-        two: The joint in the second.
-        signs: Sign of the axis of each joint, by its name in the first robot.
-        comparison: Where differences are recorded.
-    """
+    """Compare the dependence of a joint on another."""
     match = JointMatch(one, two, np.eye(3))
     parts = x, y = one.mimic, two.mimic
     if x is None and y is None:

@@ -34,15 +34,7 @@ def compare_looks(
     *,
     has_color: bool,
 ) -> None:
-    """Compare two visuals of equal geometry.
-
-    Args:
-        pair: Both robots.
-        comparison: Where differences are recorded.
-        links: Their links.
-        visuals: The visuals.
-        has_color: Whether their colors are compared in another row.
-    """
+    """Compare two visuals of equal geometry."""
     robots = pair.a.robot, pair.b.robot
     sides = list(zip(robots, links, visuals, strict=True))
     names = links[0].name, links[1].name

@@ -22,12 +22,7 @@ def match_children(
 ) -> list[tuple[Joint, Joint]]:
     """Match joints of two corresponding bodies, the most similar first.
 
-    Args:
-        a: Bodies of the first robot.
-        b: Bodies of the second.
-        one: Joints of a body of the first.
-        two: Joints of the corresponding body of the second.
-        frame: Pose of that body of the second in that of the first, 4 × 4.
+    ``frame`` is the pose of the second body in the first, 4 × 4.
     """
     costs = sorted(
         (

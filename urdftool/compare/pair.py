@@ -159,22 +159,7 @@ def add_presence(
     owners: tuple[str, ...] = (),
     is_convention: bool = False,
 ) -> None:
-    """Record a part that only one robot has.
-
-    Args:
-        comparison: Where it is recorded.
-        row: Its row.
-        kind: ``link`` or ``joint``.
-        what: What it is.
-        side: 0 if the first robot has it, else 1.
-        part: The part.
-        name: Name of its link or joint.
-        value: Description of the part.
-        other: The part of the other robot that should have it.
-        counterpart: Name of that part, if it exists.
-        owners: Links or joints of the part.
-        is_convention: Whether it makes no difference.
-    """
+    """Record a part that only one robot has."""
     here, there = locate(part, None), locate(other, None)
     names = (name, counterpart) if side == 0 else (counterpart, name)
     values = (value, None) if side == 0 else (None, value)

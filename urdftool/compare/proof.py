@@ -131,13 +131,7 @@ def prove(
 ) -> list[Check]:
     """Compare an export, which was read back, with its source.
 
-    Args:
-        source: The robot that was exported, of one or, if that was forced, several trees.
-        result: The robot of the exported file.
-        claims: Declared losses and new names.
-        rows: Properties to compare, with the tolerances of the format.
-        meshes: Meshes that have been measured before.
-        has_frames: Whether each link of the source must be a link or a frame of the result.
+    With ``has_frames``, each link of the source must be a link or a frame of the result.
 
     Returns:
         A row for each property, also for those that could not be compared, and one for what the

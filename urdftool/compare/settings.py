@@ -102,18 +102,7 @@ def compare_settings(
     settings: tuple[Settings, Settings],
     owners: tuple[Part, Part],
 ) -> None:
-    """Compare the values of the rows of a table that two parts have.
-
-    Args:
-        pair: Both robots.
-        comparison: Where differences are recorded.
-        row: Row of the comparison.
-        kind: ``link``, ``joint`` or ``robot``.
-        names: Names of the parts.
-        rows: Rows of the table.
-        settings: Values of the parts.
-        owners: Parts whose place is that of a missing value.
-    """
+    """Compare the values of the rows of a table that two parts have."""
     if row not in comparison.tolerances:
         return
     for setting, (x, y), parts in _list_values(rows, settings):

@@ -149,14 +149,7 @@ def _list_near(shape: Placed, centers: Array, tolerance: float) -> list[int]:
 
 
 def _find_repeated(state: _Comparing, i: int, j: int, *, is_first: bool) -> tuple[Placed, Placed]:
-    """Return a visual that one robot draws more often, and the most similar one of the other.
-
-    Args:
-        state: The shapes.
-        i: Number of the shape of the first robot.
-        j: Number of the shape of the second, at the same place.
-        is_first: Whether the first robot draws it more often.
-    """
+    """Return a visual that one robot draws more often, and the most similar one of the other."""
     pair = state.one[i], state.two[j]
     others = [
         (pair[0], other) if is_first else (other, pair[1]) for other in state.every[int(is_first)]

@@ -18,11 +18,7 @@ def has_equal_content(
 ) -> bool:
     """Tell whether two shapes that are not read, or two planes, are not known to differ.
 
-    Args:
-        pair: Both robots.
-        row: ``visuals``, in which planes have a size, or ``collisions``.
-        shapes: A shape of each robot.
-        tolerance: Tolerance of the size of a plane [m].
+    Planes have a size in the row ``visuals`` only.
     """
     one, two = shapes
     if isinstance(one, Plane) and isinstance(two, Plane):

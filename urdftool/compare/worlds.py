@@ -57,12 +57,6 @@ def _record_decided(robot: Robot, other: Robot, compared: set[str], comparison: 
     """Record the rows that a setting of the world decides and that is not that of the other robot.
 
     Rows compare what is written of a robot; a simulator does something else with it in this world.
-
-    Args:
-        robot: The robot.
-        other: The other robot, whose settings are its own or the default.
-        compared: Names of the settings that the row of the world compares.
-        comparison: Where they are recorded.
     """
     for row, value in list_changed(robot):
         content: Content = value.content

@@ -108,14 +108,7 @@ def draw_contact_sheet(
     Moving links are visible through the rest. Both pictures of a joint have the same viewpoint.
     Joints that move no triangle are skipped.
 
-    Args:
-        robot: The robot.
-        shapes: Its shapes.
-        positions: Positions of the other joints [rad or m]; zero by default. Mimic joints follow.
-        camera: The viewpoint; by default the one from which most of the moved links is visible.
-        cell: Width and height of one picture in pixels; by default from the number of joints.
-        progress: Called before each joint is drawn, with its number, the number of joints and its
-            name.
+    Other joints are at ``positions`` [rad or m], by default 0; a cell has a size in pixels.
 
     Returns:
         Pixels, shape (height, width, 3); a sheet with only a title if no joint moves.

@@ -28,13 +28,7 @@ class Detail:
     def __init__(
         self, robot: Robot, shapes: Iterable[tuple[int, Visual | Collision]], pixels: int
     ) -> None:
-        """Find the size of a pixel.
-
-        Args:
-            robot: The robot, with its description.
-            shapes: Row of the link, and shape.
-            pixels: Larger one of width and height of the picture.
-        """
+        """Find the size of a pixel."""
         self.robot = robot
         self.meshes = ThinMeshes(DiskCache(cache_folder("meshes")))
         self.cell = self._measure_extent(shapes) / (pixels * _CELLS_PER_PIXEL)

@@ -76,13 +76,7 @@ def draw_pair_sheet(
     One link is red, the other blue, the rest gray; both are visible through the rest. The joints
     that do not move the pair are at 0.
 
-    Args:
-        robot: The robot.
-        shapes: Its shapes.
-        pairs: The pairs; only the first ``MOST`` are drawn.
-        title: First line of the sheet.
-        cell: Width and height of one picture in pixels.
-        progress: Called before each picture, with its number, their number, and the pair.
+    Only the first ``MOST`` pairs are drawn, each in a cell of pixels.
 
     Returns:
         Pixels, shape (height, width, 3).

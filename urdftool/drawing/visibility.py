@@ -129,15 +129,7 @@ def mask_hidden_pixels(shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, v
 def draw_through(
     shapes: Shapes, poses: Mapping[str, Pose], moved: Mask, *, view: View, ground: float
 ) -> Image:
-    """Draw a picture of shapes in which moved triangles are visible through what hides them.
-
-    Args:
-        shapes: All shapes.
-        poses: Poses of the links.
-        moved: Mask of the moved triangles, shape (m,).
-        view: The camera.
-        ground: Height of the floor [m].
-    """
+    """Draw a picture of shapes in which moved triangles are visible through what hides them."""
     image = draw(shapes, poses, camera=view, ground=ground)
     hidden = mask_hidden_pixels(shapes, poses, moved, view)
     if hidden.any():

@@ -122,13 +122,7 @@ def _split(text: str | None) -> list[str]:
 def rename_in_files(
     draft: Draft, names: Mapping[str, str], kinds: Mapping[str, Mapping[str, str]]
 ) -> int:
-    """Change names in the files around; return the number of changes.
-
-    Args:
-        draft: The robot, with its files.
-        names: New names of links, joints and others, in YAML.
-        kinds: New names of ``link`` and ``joint``, in SRDF.
-    """
+    """Change names in the files around; return the number of changes."""
     count = 0
     for file in draft.around:
         if isinstance(file, YamlDraft):

@@ -41,12 +41,8 @@ class Mount:
 def attach_robot(arm: Draft, part: Draft, mount: Mount, folder: Path | None = None) -> str:
     """Insert a robot, with its comments, at the end of another; return its first link.
 
-    Args:
-        arm: The first robot.
-        part: The second one, whose names have their prefix already.
-        mount: Where it is attached.
-        folder: Folder of the result, to which paths of meshes are relative; None for that of the
-            first robot.
+    Names of the second have their prefix already; paths of meshes are relative to ``folder``, by
+    default that of the first.
 
     Raises:
         ModelError: Names clash, or the link does not exist.

@@ -22,10 +22,7 @@ MARKS = {
 def cut_branch(draft: Draft, name: str, *, force: bool = False) -> None:
     """Remove a link, all below it, and all that refers to them.
 
-    Args:
-        draft: The robot.
-        name: The first link of the branch.
-        force: Remove parts that refer to it also if they are about kept parts.
+    ``force`` removes parts that refer to it also if they are about kept parts.
 
     Raises:
         ModelError: The link does not exist or is the root, or a kept part depends on the branch.

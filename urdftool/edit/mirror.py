@@ -173,12 +173,7 @@ def mirror_meshes(
 ) -> None:
     """Mirror the meshes of a link.
 
-    Args:
-        draft: The robot.
-        link: The link.
-        index: Coordinate that the reflection negates.
-        how: ``files`` or ``scale``, and the folder of new meshes.
-        written: Names of new meshes by the old ones; new ones are added.
+    ``index`` is the coordinate that the reflection negates; new meshes are added to ``written``.
     """
     for shape in _list_shapes(link):
         if isinstance(shape.geometry, Mesh):

@@ -65,12 +65,7 @@ def add_side(
     Copied are the branches whose names have a part, with their ``<gazebo>`` blocks, transmissions,
     hardware, and what is about them in the SRDF. All positions are zero in the mirror image.
 
-    Args:
-        draft: The robot.
-        plane: ``xy``, ``xz`` or ``yz``.
-        exchange: Part of names of the side, and that of the image, such as ``l_`` and ``r_``.
-        meshes: As for :func:`mirror.mirror_robot`.
-        mesh_dir: Folder of new meshes, relative to the output.
+    Arguments are those of :func:`.mirror.mirror_robot`.
 
     Raises:
         ModelError: No name has the part, a name within a branch does not, or a new name exists.

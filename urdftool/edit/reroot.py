@@ -41,10 +41,7 @@ _KEPT = re.compile(rf"{MARK}'([^']*)' had (.*) ", re.DOTALL)
 def take_root(draft: Draft, name: str, *, move_frames: bool = False) -> None:
     """Make another link the root.
 
-    Args:
-        draft: The robot.
-        name: The new root.
-        move_frames: Move the frames of links on the way to their joints, without links at axes.
+    ``move_frames`` moves the frames of links on the way to their joints, without links at axes.
 
     Raises:
         ModelError: The link does not exist or is one that this operation made, or a joint on the

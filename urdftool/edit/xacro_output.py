@@ -74,12 +74,6 @@ def prefix_in_xacro(robot: Robot, prefix: str, make: Make, output: str | Path) -
 
     A link ``world`` keeps its name if the description gives it none.
 
-    Args:
-        robot: The robot.
-        prefix: The prefix.
-        make: Makes the URDF of the same operation, for the link that keeps its name.
-        output: Path of the file.
-
     Raises:
         ModelError: No way to write it gives the robot of the URDF.
     """

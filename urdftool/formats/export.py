@@ -26,16 +26,7 @@ def finish_export(
 ) -> list[Check]:
     """Check an export, write it, and compare it with its source.
 
-    Args:
-        target: The target format.
-        robot: The source.
-        options: Options of the export.
-        written: The export.
-        output: Path of the file or folder; None writes nothing.
-        verify: Whether to compare the export with its source.
-        overwrite: Also replace files that urdftool did not write.
-        inputs: More files that must not be replaced, in addition to those of the robot and the
-            options.
+    Without an output, nothing is written; ``inputs`` are more files that must not be replaced.
 
     Returns:
         The comparisons; none without ``verify``.

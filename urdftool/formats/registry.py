@@ -97,12 +97,6 @@ class Format:
     ) -> list[Check]:
         """Check an export before user files are replaced.
 
-        Args:
-            robot: The source.
-            options: Options of the export.
-            written: The export.
-            verify: Whether to compare it with the source, in addition to the basic checks.
-
         Raises:
             OutputError: A reader of the format rejects it.
         """

@@ -29,12 +29,7 @@ def check_read_back(
 ) -> Check:
     """Step a robot that was read back, and describe how it moves.
 
-    Args:
-        robot: The robot that the file holds.
-        positions: Joint positions at the start [rad or m], as the file has them.
-        timestep: Physics time step [s] for which the gains of servos were chosen; None for that
-            of MuJoCo.
-        losses: What the export reported.
+    Positions are those of the start [rad or m]; gains were chosen for the time step [s].
 
     Returns:
         The row ``runs``; not compared if MuJoCo is not installed, or the robot is not an MJCF.

@@ -67,11 +67,7 @@ class ThinMeshes:
     def read(self, path: Path, scale: Sequence[float], gltf_up: GltfUp, cell: float) -> Mesh:
         """Read a mesh whose vertices may be off by the diagonal of a cell.
 
-        Args:
-            path: The mesh file.
-            scale: Factors, as URDF's ``<mesh scale>``.
-            gltf_up: Up axis of a glTF file.
-            cell: Edge of a cell [m].
+        The edge of a cell is in m.
 
         Raises:
             UrdftoolError: The file cannot be read.

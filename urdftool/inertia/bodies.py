@@ -191,10 +191,7 @@ def _unpack(data: bytes, path: Path) -> MeshBody | None:
 def integrate_mesh_body(path: Path, *, surface: bool = False, gltf_up: GltfUp = "y") -> MeshBody:
     """Integrate a mesh file at unit density, unscaled.
 
-    Args:
-        path: An STL, OBJ, DAE, PLY, glTF or GLB file.
-        surface: Whether to integrate its surface as a thin shell instead of the enclosed solid.
-        gltf_up: Up axis of a glTF file.
+    ``surface`` integrates its surface as a thin shell.
 
     Raises:
         MeshError: The file cannot be read or encloses no volume.

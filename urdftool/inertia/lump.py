@@ -62,10 +62,8 @@ class Lumped:
 def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -> Lumped:
     """Compute the mass properties of each rigid body, and of the robot at a pose.
 
-    Args:
-        robot: The robot.
-        found: Reviews of its links; a link without written inertia counts with its implied inertia.
-        pose: Joint positions [rad or m] by name; others are 0 or follow as mimic joints.
+    A link without written inertia counts with the implied one; joints without a position [rad or m]
+    are at 0.
 
     Raises:
         InertiaError: The robot does not have exactly one root link, or the pose contains an unknown

@@ -188,14 +188,7 @@ def get_shape_call(
 ) -> str:
     """Return the call of a shape's macro with numbers.
 
-    Args:
-        shape: The shape.
-        sizes: Its sizes [m] by name.
-        mass: Mass [kg].
-        thickness: Wall of a hollow shape [m]; None for a solid one.
-        closed: Whether a hollow cylinder has end plates.
-        xyz: Position of the shape in the link [m].
-        rpy: Orientation of the shape in the link [rad].
+    Lengths are in m, angles in rad; a shape without thickness is solid.
     """
     name = shape.name if thickness is None else f"hollow_{shape.name}"
     written = {"mass": number_text(mass)}

@@ -154,11 +154,7 @@ def _probe_corners(
 def _get_relation(number: Array, pair: tuple[_Body, _Body], low: Array, high: Array) -> str:
     """Return ``"within"``, ``"overlap"`` or ``"apart"`` for two bodies whose bounding boxes meet.
 
-    Args:
-        number: Winding numbers of the outer body at corners of the inner one.
-        pair: The inner and the outer body.
-        low: Lower corner of the intersection of the boxes.
-        high: Upper corner of the intersection.
+    ``low`` and ``high`` are the corners of the intersection of the boxes.
     """
     # a value near one half is on the other's surface and is inconclusive
     inside, outside = np.any(number > 0.9), np.any(number < 0.1)

@@ -25,13 +25,7 @@ def review(
 ) -> list[LinkReview]:
     """Review the inertia of a robot's links.
 
-    Args:
-        robot: The robot.
-        read_meshes: Returns the body of each named mesh file, or the error.
-        masses: Mass assignment; None for the written masses.
-        source: ``"collision"`` or ``"visual"``; None for the collisions of a link, or its visuals
-            if it has no collisions or their volume is unknown.
-        only: Names of the links to return; all if empty.
+    Without a source, collisions count, or visuals where these lack or their volume is unknown.
 
     Raises:
         InertiaError: The masses are invalid: see :func:`check_masses`, :func:`assign_masses`.

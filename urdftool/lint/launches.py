@@ -61,13 +61,7 @@ Find = Callable[[str], str | None]
 
 
 def read_uses(path: str, text: str, find: Find) -> list[Use]:
-    """Return the descriptions that a file uses; none for a file of another kind.
-
-    Args:
-        path: Path of a launch file in Python or XML, or of a ``CMakeLists.txt``.
-        text: Its text.
-        find: Function that returns the folder of a ROS package.
-    """
+    """Return the descriptions that a file uses; none for a file of another kind."""
     if path.endswith(".py"):
         return _Script(path, find).read(text)
     if os.path.basename(path) == "CMakeLists.txt":

@@ -95,12 +95,7 @@ def convert_error(
 ) -> Finding:
     """Return an error of reading a description as a finding.
 
-    Args:
-        failure: The error.
-        severities: Configured severities of rules.
-        unchecked: Whether the robot was not checked at all; the finding then is an error in any
-            configuration.
-        rule: Rule of a file that is not URDF; empty for that of the error.
+    If the robot was not checked at all, the finding is an error in any configuration.
     """
     place = failure.at or Place(SourceFile(failure.path or "", b""), 0, 0)
     effects = {} if rule else _get_effects(failure.rule or "not-well-formed", failure)

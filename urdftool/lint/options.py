@@ -31,10 +31,7 @@ class Observer(Protocol):
     ) -> object:
         """Receive a description before the rules run.
 
-        Args:
-            description: The description.
-            robot: Its robot; None if it could not be read.
-            errors: Why it could not be read as it is.
+        The robot is None if it could not be read, and errors say why.
         """
 
     def check_progress(self) -> object:

@@ -55,13 +55,6 @@ def add_skipped_parts(
 
     The source of such a file is checked, and that of a file without links that has the name of a
     robot. A part of a robot that stopped before it has no report unless its source has findings.
-
-    Args:
-        reports: Reports of descriptions.
-        paths: Files and folders named by the user.
-        check: Check of a description, ``run.check_file``.
-        options: How the descriptions were checked.
-        belonging: Resolved paths of files that a robot includes, which may have stopped earlier.
     """
     read: set[str] = set()
     without_links: dict[str, Report] = {}

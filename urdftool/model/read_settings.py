@@ -100,12 +100,7 @@ def read_sdf_settings(
 ) -> Settings:
     """Return the valid settings in the SDF element of a collision, link, joint, model or world.
 
-    Args:
-        element: The element.
-        rows: What is read.
-        rejected: Receives the elements whose text is not a value.
-        part: Kind and name of the part, for messages.
-        axis: Tag of the axis of a joint that is read: ``axis`` or ``axis2``.
+    ``rejected`` receives the elements whose text is not a value; ``axis`` may be ``axis2``.
     """
     kind, name = part
     reading = _Reading(name, kind, rejected)

@@ -156,13 +156,7 @@ def read_sensor(
 ) -> Iterator[Camera | MountedSensor]:
     """Yield the cameras of a ``<sensor>``, or the sensor.
 
-    Args:
-        element: The element, in SDF or in a ``<gazebo>`` block.
-        pose: Pose in the frame of its link or joint.
-        link: Name of the link.
-        joint: Name of the joint, for a sensor of a joint.
-        provenance: Location; None for the element.
-        rejected: Receives the settings whose text is not a value.
+    ``rejected`` receives the settings whose text is not a value.
     """
     name, type_ = element.get("name") or "", (element.get("type") or "").strip()
     plugins = list(element.list_children("plugin"))

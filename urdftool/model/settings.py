@@ -343,14 +343,7 @@ class Rejected(Part):
 
 
 def describe_rejected(part: tuple[str, str], tag: str, text: str, required: str) -> str:
-    """Describe a text that is not a value: the first words of each message about it.
-
-    Args:
-        part: Kind and name of its part, such as ``link``.
-        tag: Tag of the element, or what of it is wrong.
-        text: What is written.
-        required: What it has to be.
-    """
+    """Describe a text that is not a value: the first words of each message about it."""
     shown = f"'{text}'" if text else "empty"
     return f"{part[0]} '{part[1]}': {tag} is {shown}, not {required}"
 

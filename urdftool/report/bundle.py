@@ -20,10 +20,7 @@ def format_sizes(
 ) -> list[str]:
     """Format the sizes of meshes and images as the lines of a table.
 
-    Args:
-        files: The files of ``bundle.json``, by path.
-        size_before: Size of all meshes and images of the source [bytes].
-        size_after: Size of those of the bundle [bytes].
+    Sizes are in bytes.
     """
     rows = [_HEAD]
     for path in sorted(files):

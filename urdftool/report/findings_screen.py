@@ -49,13 +49,8 @@ def format_screen(
 ) -> Iterator[str]:
     """Yield the lines of findings, sorted by severity.
 
-    Args:
-        findings: The findings of a run.
-        style: ``full`` or ``concise``.
-        colors: Whether to color the text.
-        whole: Whether to show all of them; otherwise a family that needs more lines than a screen
-            gets one line for each finding, errors first, and the number of omitted findings.
-        cut: Whether to cut lists of names in long messages.
+    Unless ``whole``, a family that needs more lines than a screen gets one line for each finding,
+    errors first, and the number of omitted ones.
     """
     shown = sort_by_severity(findings)
     if style == "full":

@@ -29,11 +29,7 @@ def render_table(
 ) -> str:
     """Align rows in columns that are as wide as their cells.
 
-    Args:
-        rows: Rows of equal length, including the header row.
-        left: Columns aligned to the left; others are aligned to the right.
-        rule: Draw a line below the first row.
-        colors: Whether to color the cells.
+    The first row is the header; columns are aligned to the right, except ``left``.
     """
     if not rows:
         return ""

@@ -49,13 +49,8 @@ class EngineProcess(IsolatedProcess):
     ) -> Any:
         """Call a function of this package in the process, and return its result.
 
-        Args:
-            module: Module of this package, such as ``engines.driver``.
-            function: Name of the function.
-            arguments: Picklable arguments.
-            time_limit: Limit of processor time [s], in addition to that of the start.
-            on_emit: Receives what the function emits before it returns; the function then takes
-                ``emit`` as its last argument.
+        The limit of processor time [s] is in addition to that of the start; with ``on_emit``, the
+        function takes ``emit`` as its last argument.
 
         Raises:
             EngineDied: The time limit was exceeded, or the process ended.

@@ -90,13 +90,7 @@ def run_in_parallel(
 ) -> Iterator[Row]:
     """Yield a row for each description, in the order in which they finish.
 
-    Args:
-        paths: Paths of the descriptions.
-        work: Function that makes a row, and adds lines to print to a list; it must be picklable if
-            processes are not forked.
-        jobs: Number of processes; None for one per core.
-        limit: Time limit of one robot [s].
-        scheduler: Address of a Dask scheduler to use instead of processes.
+    ``work`` makes a row and adds lines to print to a list; the limit is in s.
     """
 
     def lost(path: str, loss: Loss) -> Row:

@@ -106,15 +106,7 @@ def simulate(
 ) -> list[Run]:
     """Spawn a robot and let it settle, once for each trial.
 
-    Args:
-        robot: The robot, read from a description.
-        settings: Settings of the simulation.
-        export_mjcf: Exports a robot as MJCF, for an engine that reads it.
-        engine: Name of an engine; None for the first of the registry.
-        progress: Receives the number of each trial before it begins, and their count.
-        child: Process of this engine that waits for the first trial.
-        precompute: Receives each start while the engine runs, to compute results for the checks.
-        thresholds: Thresholds of the checks; None for the defaults.
+    ``precompute`` receives each start while the engine runs, to compute results for the checks.
 
     Raises:
         ModelError: The robot cannot be simulated.

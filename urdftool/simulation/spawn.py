@@ -34,11 +34,7 @@ def spawn_pose(
     The lowest point of a robot starts on the plane. If the base is fixed and the lowest link moves,
     it starts clear of the plane, which would carry a load that the joints must hold.
 
-    Args:
-        parts: Each body's pose in the frame of the root and its collision shapes, the root first.
-        settings: How the robot is spawned.
-        fixed: Whether the root is fixed to the world.
-        at_origin: Whether the file places the root; it is raised only if it is below the plane.
+    ``at_origin``: the file places the root, which is raised only if it is below the plane.
     """
     upright = Pose(rotation_from_rpy(settings.upright_rpy))
     turn = Pose(rotation_from_rpy(settings.start_rpy)) @ upright

@@ -269,13 +269,7 @@ def _add_side(kind: str, joints: Sequence[Joint]) -> str:
 
 
 def guess_gripper_name(carrier: str, kind: str, *, alone: bool) -> str:
-    """Guess the name of a gripper's group: that of its arm, with another kind.
-
-    Args:
-        carrier: Name of the group of its arm; empty without one.
-        kind: ``gripper`` or ``hand``.
-        alone: Whether it is the only gripper.
-    """
+    """Guess the name of a gripper's group: that of its arm, with another kind."""
     if not carrier or alone:
         return kind
     return carrier.replace("arm", kind) if "arm" in carrier else f"{carrier}_{kind}"

@@ -79,16 +79,8 @@ class Page:
     ) -> None:
         """Put a robot on the page.
 
-        Args:
-            server: The server of the page.
-            robot: The robot, checked by :func:`require_viewable`.
-            read: Reads the current description.
-            load: Returns the triangles of a robot's ``"visual"`` or ``"collision"``.
-            check: Lints a robot; None to skip lint.
-            start: Initial positions of joints [rad or m].
-            shown: Those of ``KINDS`` that are visible initially.
-            compare: Finds poses at which pairs of links touch; None for no tab of pairs.
-            more: Files to watch, in addition to those of the robot.
+        The robot is one of :func:`require_viewable`; without ``check`` or ``compare`` there is no
+        tab for it.
         """
         self.server, self.robot = server, robot
         self._read, self._load, self._check = read, load, check

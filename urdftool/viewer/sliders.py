@@ -104,10 +104,7 @@ def create_sliders(
 ) -> list[Slider]:
     """Create a slider for each joint with one degree of freedom, in the order of the file.
 
-    Args:
-        robot: Any robot, even a broken one.
-        start: Positions that the bounds must include, regardless of limits.
-        reach: Travel to either side of a prismatic joint without limits [m].
+    Bounds include ``start``; ``reach`` is that of a prismatic joint without limits [m].
     """
     start = start or {}
     movable = find_movable_joints(robot)

@@ -14,11 +14,6 @@ def find_link_at(robot: Robot, path: str, line: int) -> str | None:
 
     A line with a macro call or an include leads to the first link that it makes.
 
-    Args:
-        robot: The robot.
-        path: A file of its description.
-        line: Number of the line, from 1.
-
     Returns:
         Name of the link, for a joint that of its child; None if nothing begins by the line.
     """

@@ -25,14 +25,7 @@ def decide_base(
 ) -> tuple[bool, str]:
     """Decide whether the root is free, and why.
 
-    Args:
-        tree: The kinematic tree.
-        base: ``fixed``, ``free``, or ``auto``, which uses the description and the support of the
-            robot.
-        virtual_joint: Type of the SRDF's virtual joint, if there is one.
-        boxes: Boxes of the robot's shapes.
-        home: Joint positions at home [rad, m].
-        written: Receives a note if the root is free because of what supports the robot.
+    ``auto`` uses the description and the support of the robot.
     """
     free, reason = _find_defined(tree, base, virtual_joint)
     if reason:

@@ -47,11 +47,7 @@ def place_export(
 ) -> Iterator[Path]:
     """Provide the path of an export on disk during a ``with`` block.
 
-    Args:
-        written: The export.
-        output: Path of the written file or folder; None writes a temporary copy.
-        name: Name of the copy.
-        single: Whether it is a file with its companions.
+    Without an output, it is a temporary copy of a name.
     """
     if output is not None:
         yield Path(output)
@@ -124,12 +120,7 @@ def write_beside(
 ) -> None:
     """Write an export as one file with its companions in the same folder; the file is written last.
 
-    Args:
-        target: Path of the file, in place of ``main``.
-        files: Content by path relative to the folder: bytes, or the path of a file to copy.
-        main: Key in ``files`` of the file that becomes the target.
-        overwrite: Also replace files that urdftool did not write, or that were edited.
-        inputs: Input files, which must not be replaced.
+    Arguments are those of :func:`write_directory`; ``main`` becomes the target.
 
     Raises:
         OutputError: A file must not be replaced or cannot be written.
@@ -154,12 +145,7 @@ def write_export(
 ) -> None:
     """Write an export to disk.
 
-    Args:
-        target: Path of the file or folder.
-        written: The export.
-        single: Whether the target is a file, with its companions in the same folder.
-        overwrite: Also replace files that urdftool did not write, or that were edited.
-        inputs: Input files, which must not be replaced.
+    ``single``: the target is a file, with its companions in the same folder.
 
     Raises:
         OutputError: A file must not be replaced or cannot be written.

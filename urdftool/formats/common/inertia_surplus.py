@@ -46,12 +46,7 @@ def move_surplus(
 ) -> list[Move]:
     """Repair tensors of a rigid body whose total stays as it is; ``group`` gets the new ones.
 
-    Args:
-        group: Mass properties of the links of the rigid body, each in its frame.
-        rotations: Rotation of each link in a common frame.
-        wrong: Links with an inconsistent tensor.
-        top: Link that takes a surplus before the others.
-        lift: Returns the nearest consistent tensor.
+    ``top`` takes a surplus before the others; rotations are in a common frame.
 
     Returns:
         The tensors that were repaired; none of a link whose surplus no other link can take.

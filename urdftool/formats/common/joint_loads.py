@@ -92,12 +92,7 @@ def compute_joint_loads(
     The ground carries a free robot at the corners of the boxes of its lowest bodies, by the forces
     of the least sum of squares that balance its weight.
 
-    Args:
-        tree: The rigid bodies.
-        masses: Mass properties of the links in their frames, as exported.
-        positions: Joint positions by name [rad or m].
-        root: Pose of the root in the world.
-        ground: Geometry near the ground, for a free root; None for a fixed one.
+    ``ground`` is the geometry near the ground, for a free root.
 
     Returns:
         The loads by joint name; an inertia is the diagonal element of the mass matrix.

@@ -94,11 +94,7 @@ def choose_position_gain(
 ) -> Gain:
     """Choose the gain of a position servo [N·m/rad or N/m].
 
-    Args:
-        kind: ``hinge`` or ``slide``.
-        effort: The effort limit [N·m or N], if any.
-        load: What the joint moves, with its armature, and holds.
-        timestep: Physics time step [s].
+    The effort limit is in N·m or N, the time step in s.
     """
     longest = timestep * (LONGER if load.is_followed else 1.0)
     most = PART * (load.reduced or load.inertia) / longest**2
@@ -144,12 +140,7 @@ def choose_velocity_gain(
 ) -> Gain:
     """Choose the gain of a velocity servo [N·m·s/rad or N·s/m].
 
-    Args:
-        kind: ``hinge`` or ``slide``.
-        effort: The effort limit [N·m or N], if any.
-        velocity: The velocity limit [rad/s or m/s]; 0 for none.
-        load: What the joint moves, with its armature, and holds.
-        timestep: Physics time step [s].
+    The effort limit is in N·m or N, the velocity limit in rad/s or m/s (0: none).
     """
     if effort and velocity:
         return Gain(effort * VELOCITY_GAIN / velocity)
@@ -167,15 +158,7 @@ def report_gains(
     *,
     remark: str = "",
 ) -> None:
-    """Report that gains are assumed, which of them inertia bounds, and the sag at home.
-
-    Args:
-        robot: The robot.
-        assumed: Gains by the name of the joint.
-        timestep: Physics time step [s] for which they are chosen.
-        written: Receives the note, and joints that the servos do not hold.
-        remark: What else follows from them, for the note.
-    """
+    """Report that gains are assumed, which of them inertia bounds, and the sag at home."""
     if not assumed:
         return
     servos = "1 servo" if len(assumed) == 1 else f"{len(assumed)} servos"

@@ -100,11 +100,7 @@ def measure_ground(
 ) -> Ground | None:
     """Measure the collision geometry, or the visual geometry if there is none; None without both.
 
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        positions: Joint positions [rad, m].
-        root: Pose of the root; by default at zero, turned as in the description.
+    The root is by default at zero, turned as in the description.
     """
     turned = compute_level_poses if root is None else link_poses
     poses = turned(tree.robot, positions)

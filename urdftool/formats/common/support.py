@@ -59,11 +59,7 @@ def list_support_points(
 ) -> Array:
     """List the points with which a robot touches the ground below it; shape (n, 3).
 
-    Args:
-        tree: The rigid bodies.
-        boxes: Boxes of its shapes.
-        poses: Poses of the links.
-        level: Height above the lowest point [m] up to which a point counts.
+    Points up to ``level`` [m] above the lowest count.
     """
     found = [list_contact_points(tree, boxes, body, poses) for body in tree.members]
     points = np.concatenate(found) if found else np.zeros((0, 3))

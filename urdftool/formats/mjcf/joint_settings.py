@@ -49,11 +49,7 @@ def set_joint_values(
     Joints of massless leaf links get an armature, and joints that move no mass against another.
     Changes of values of the description are reported.
 
-    Args:
-        structure: The kinematic tree.
-        settings: Settings by joint name, from the user.
-        singular: Joints without an armature that turn against another without moving mass.
-        written: Receives the changes.
+    Singular joints turn against another without moving mass.
     """
     leaves = get_massless_leaves(structure)
     joints = []

@@ -87,15 +87,7 @@ def import_library() -> None:
 def compile_text(
     text: str, models: Mapping[str, bytes], paths: dict[str, str], folder: str, workspace: Workspace
 ) -> tuple[Compiled, Dependencies]:
-    """Compile a model, and return the files that were read.
-
-    Args:
-        text: XML without includes.
-        models: Text of attached models by name.
-        paths: Path of each other file by name.
-        folder: Folder to which the paths are relative.
-        workspace: Access to files.
-    """
+    """Compile a model, and return the files that were read."""
     view = workspace.with_record()
     assert view.dependencies is not None
     try:

@@ -108,13 +108,7 @@ def verify(
 ) -> list[Check]:
     """Compare an export with its robot.
 
-    Args:
-        robot: The robot.
-        written: The export.
-        model: Path of the model, next to its meshes.
-        again: A second export with the same options.
-        options: Options of the export; None for the defaults.
-        stepped: Path of the model to step, if it is a different one.
+    ``again`` is a second export with the same options; ``stepped`` is the model to step.
 
     Raises:
         MissingDependency: MuJoCo is not installed.

@@ -106,14 +106,7 @@ class Trial:
 def check_runs(
     path: Path, declared: DeclaredLosses, *, excluded: bool, start: str = "home"
 ) -> Check:
-    """Simulate a model at each time step; return the row ``runs`` of the comparison.
-
-    Args:
-        path: The MJCF file.
-        declared: The reported losses.
-        excluded: Whether links that overlap at home are excluded from contact.
-        start: Where the model starts, for the table.
-    """
+    """Simulate a model at each time step; return the row ``runs`` of the comparison."""
     written = read_timestep(path)
     timesteps = sorted({written, TIMESTEPS[-1]})
     steps = " and ".join(f"{step * 1000:g}" for step in timesteps)
@@ -289,11 +282,7 @@ def _name_joints(mujoco: Any, model: Any) -> dict[int, str]:
 def _list_driven_joints(mujoco: Any, model: Any, data: Any, *, by_position: bool) -> set[int]:
     """List the joints that a servo moves, directly, by a tendon or by a mimic.
 
-    Args:
-        mujoco: The module.
-        model: The model.
-        data: Its state at the start, forwarded.
-        by_position: Whether servos of a velocity do not count.
+    With ``by_position``, servos of a velocity do not count.
     """
     terms = slice(1, 2) if by_position else slice(1, 3)
     servos = np.flatnonzero((model.actuator_biasprm[:, terms] != 0).any(axis=1))

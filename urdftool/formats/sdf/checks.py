@@ -23,11 +23,7 @@ def check_output(
 ) -> list[Check]:
     """Read an export back and compare it with its source.
 
-    Args:
-        robot: The source.
-        options: Options of the export.
-        written: The export.
-        output: Path of the written file or folder; None writes a temporary copy.
+    Without an output, it is a temporary copy.
     """
     from .verify.compare import verify
 

@@ -190,10 +190,7 @@ def _compute_own_shortfall(link: Link) -> float:
 def apply_base(robot: Robot, base: ChosenBase, written: Written) -> Robot:
     """Return the robot with a joint to the world if its base is fixed by ``base``.
 
-    Args:
-        robot: The source; without a choice, or with several roots, it is returned as it is.
-        base: The choice; ``auto`` decides as exports to MJCF and USD do.
-        written: Receives a note about the joint, or about a base that is free.
+    ``auto`` decides as exports to MJCF and USD do.
     """
     roots = robot.tree.roots
     if base == "" or base == "free" or len(roots) != 1 or roots[0].name == WORLD:

@@ -40,14 +40,8 @@ def read(
 ) -> Reading:
     """Read a robot.
 
-    Args:
-        path: A ``.usda``, ``.usdc``, ``.usd`` or ``.usdz`` file.
-        file: The file, if it has been read.
-        packages: Finder of image files; None creates one.
-        workspace: Access to files; None creates a new one.
-        name: Name or path of an articulation; empty for the one with most bodies.
-        mesh_folder: Folder for the meshes of the stage, as STL and OBJ files; None is a folder
-            in the user's cache.
+    ``name`` is that of an articulation, empty for the one with most bodies; without a mesh folder,
+    meshes are in the user's cache.
 
     Raises:
         MissingDependency: usd-core is not installed.

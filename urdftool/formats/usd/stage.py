@@ -91,15 +91,7 @@ def apply(prim: Usd.Prim, *schemas: str) -> None:
 
 
 def set_value(prim: Usd.Prim, name: str, kind: str, value: Any, *, uniform: bool = False) -> None:
-    """Write an attribute of a schema that may not be registered.
-
-    Args:
-        prim: The prim.
-        name: Name of the attribute.
-        kind: Type, such as ``float`` or ``double[]``.
-        value: Value.
-        uniform: Whether it cannot vary over time.
-    """
+    """Write an attribute of a schema that may not be registered."""
     variability = Sdf.VariabilityUniform if uniform else Sdf.VariabilityVarying
     type_name = Sdf.ValueTypeNames.Find(kind)
     attribute = prim.CreateAttribute(name, type_name, custom=False, variability=variability)

@@ -170,13 +170,6 @@ def join_attached_boxes(
 ) -> Bounds | None:
     """Join a link's bounding box with those of attached links in the place of another box.
 
-    Args:
-        reach: The bounding boxes of the robot.
-        link: The link.
-        kind: Geometry whose boxes are joined, ``visuals`` or ``collisions``.
-        own: Bounding box of the link itself.
-        other: The box to compare the result with.
-
     Returns:
         The box; None if that of an attached link is unknown.
     """

@@ -77,12 +77,6 @@ def compute_tensor_about_com(
 ) -> SymmetricTensor | None:
     """Compute the tensor about the center of mass, if the written one is about the link frame.
 
-    Args:
-        link: A link with mass.
-        inertial: Its inertial.
-        six: The tensor as written [kg·m²].
-        box: Bounding box of its geometry in its frame [m].
-
     Returns:
         The tensor [kg·m²] along the axes of the inertial; None if the written one may be correct,
         or is wrong in another way.
@@ -122,12 +116,6 @@ def compute_tensor_about_center(
     link: Link, inertial: Inertial, center: Vector, box: Bounds
 ) -> SymmetricTensor | None:
     """Compute the tensor about a center of mass that only the geometry determines.
-
-    Args:
-        link: A link with mass, whose inertial is at its frame.
-        inertial: Its inertial.
-        center: Center of mass by its geometry, in its frame [m].
-        box: Bounding box of its geometry in its frame [m].
 
     Returns:
         The tensor [kg·m²] along the axes of the inertial: as written if it fits the geometry,

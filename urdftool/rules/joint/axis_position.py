@@ -153,14 +153,6 @@ def _measure_bodies(
 ) -> tuple[float, float] | None:
     """Measure the distance of a line from the geometry of rigidly connected links, and their size.
 
-    Args:
-        robot: The robot.
-        reach: Bounding boxes of its links.
-        inverse: Pose of the root in the frame of each link.
-        names: The links.
-        place: A point of the line [m].
-        way: Unit vector along the line.
-
     Returns:
         The distance and the largest length of a link [m]; None if they have no geometry, or if its
         size is unknown.

@@ -135,12 +135,7 @@ def _measure_better_fit(
 ) -> float:
     """Measure by which part of its volume the overlap of a collision and its visual grows if moved.
 
-    Args:
-        touches: Collision geometry.
-        off: Translation [m].
-        seen: Visual geometry.
-        theirs: Collision geometry of the neighbor; 0 is returned if the overlap with it grows.
-        bounds: Thresholds.
+    It is 0 if the overlap with the neighbor grows.
     """
     moved = touches.transform(Pose(translation=(float(off[0]), float(off[1]), float(off[2]))))
     more = (
@@ -168,15 +163,7 @@ def _is_housing(
     link: str,
     other: int,
 ) -> bool:
-    """Tell whether a collision surrounds the joint of a link and a neighbor: a motor housing.
-
-    Args:
-        box: Bounding box of the collision, in the link's frame [m].
-        shown: Bounding box of the visuals [m]; None without visuals.
-        snapshot: State of the robot.
-        link: Name of the link.
-        other: Index of the neighbor's body.
-    """
+    """Tell whether a collision surrounds the joint of a link and a neighbor: a motor housing."""
     bodies = snapshot.bodies.bodies
     own = snapshot.get_body(link)
     place = bodies[own].places[link].invert()
