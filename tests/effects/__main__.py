@@ -99,11 +99,13 @@ def as_text(record_: dict[str, dict[str, Any]]) -> str:
 
 
 def write_packaged() -> None:
-    """Write what rule pages quote, made of the table and the recorded versions."""
-    text = json.dumps(table.packaged(), indent=0, ensure_ascii=False)
-    table.PACKAGED.write_text(text + "\n", "utf-8")
-    text = json.dumps(table.rejections(), indent=0, ensure_ascii=False)
-    table.REJECTIONS.write_text(text + "\n", "utf-8")
+    """Write what rule pages quote, of the table and the recorded versions, a line a rule."""
+    for path, record_ in (
+        (table.PACKAGED, table.packaged()),
+        (table.REJECTIONS, table.rejections()),
+    ):
+        rules = (json.dumps({name: facts}, ensure_ascii=False) for name, facts in record_.items())
+        path.write_text("{\n" + ",\n".join(rule[1:-1] for rule in rules) + "\n}\n", "utf-8")
 
 
 if __name__ == "__main__":
