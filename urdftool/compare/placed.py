@@ -64,8 +64,8 @@ def measure_corner_distance(*boxes: tuple[tuple[float, float, float], Array]) ->
     """
     signs = np.array(list(product((-0.5, 0.5), repeat=3)))
     one, two = (signs * size @ pose[:3, :3].T + pose[:3, 3] for size, pose in boxes)
-    apart = np.linalg.norm(one[:, None] - two[None], axis=2)
-    return float(max(apart.min(axis=0).max(), apart.min(axis=1).max()))
+    distances = np.linalg.norm(one[:, None] - two[None], axis=2)
+    return float(max(distances.min(axis=0).max(), distances.min(axis=1).max()))
 
 
 def describe_what(kind: str, placed: Placed) -> str:

@@ -144,8 +144,8 @@ def _list_near(shape: Placed, centers: Array, tolerance: float) -> list[int]:
     """
     if isinstance(shape.geometry, Mesh):
         return list(range(len(centers)))
-    apart = abs(centers - shape.pose[:3, 3]).max(axis=1)
-    return [int(j) for j in np.flatnonzero(apart <= tolerance * _ROUNDED)]
+    distances = abs(centers - shape.pose[:3, 3]).max(axis=1)
+    return [int(j) for j in np.flatnonzero(distances <= tolerance * _ROUNDED)]
 
 
 def _find_repeated(state: _Comparing, i: int, j: int, *, is_first: bool) -> tuple[Placed, Placed]:

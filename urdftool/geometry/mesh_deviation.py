@@ -39,10 +39,10 @@ def _measure_one_sided(one: Array, two: Array, enough: float) -> float:
     radii = np.linalg.norm(two - centers[:, None], axis=2).max(axis=1)
     largest = 0.0
     for point in one[chosen].mean(axis=1):
-        apart = np.linalg.norm(centers - point, axis=1)
-        nearest = float(apart.min())
+        distances = np.linalg.norm(centers - point, axis=1)
+        nearest = float(distances.min())
         if nearest > largest:
-            near = two[apart - radii <= nearest]
+            near = two[distances - radii <= nearest]
             on = closest_point(near, np.broadcast_to(point, (len(near), 3)))  # type: ignore[no-untyped-call,unused-ignore]
             largest = max(largest, float(np.linalg.norm(on - point, axis=1).min()))
         if largest > enough:

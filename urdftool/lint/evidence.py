@@ -99,8 +99,8 @@ class Signs:
         for folder in self.description.packages.list_neighbors():
             if folder != own[1] and _is_package_used(workspace, folder, own[0]):
                 manifest = read_manifest(workspace, folder / "package.xml")
-                said = (*manifest, *read_launch_files(workspace, folder))
-                found += [one for one in said if one.target in GENERATIONS]
+                statements = (*manifest, *read_launch_files(workspace, folder))
+                found += [one for one in statements if one.target in GENERATIONS]
         return tuple(found)
 
     @cached_property
@@ -157,9 +157,9 @@ def read_manifest(workspace: Workspace, path: Path) -> tuple[Evidence, ...]:
         for match in words:
             name = match[1].decode()
             if name.startswith("ament_") if names is None else match[1] in names:
-                said = "build type" if match[2] == b"build_type" else "depends on"
+                what = "build type" if match[2] == b"build_type" else "depends on"
                 line = file.position(match.start(1))[0]
-                yield Evidence(target, "package.xml", file.path, line, f"{said} {name}")
+                yield Evidence(target, "package.xml", file.path, line, f"{what} {name}")
                 return
 
     ros = [*cite("ros2", None)] or [*cite("ros1", (b"catkin",))]
@@ -176,8 +176,8 @@ def read_launch_files(workspace: Workspace, package: Path) -> tuple[Evidence, ..
         for target, words in _LAUNCHED.items():
             match = words.search(text)
             if match is not None:
-                line, said = file.position(match.start())[0], f"names {match[0].decode()}"
-                found.append(Evidence(target, "a launch file", file.path, line, said))
+                line, what = file.position(match.start())[0], f"names {match[0].decode()}"
+                found.append(Evidence(target, "a launch file", file.path, line, what))
     return tuple(found)
 
 
@@ -231,8 +231,8 @@ def _list_elements(robot: Robot) -> Iterator[Evidence]:
         yield _make_evidence("ros2", "an element", control.element, "<ros2_control>")
     for transmission in robot.transmissions:
         if any(joint.hardware_interfaces for joint in transmission.joints):
-            said = "<hardwareInterface> of ros_control in a joint"
-            yield _make_evidence("ros1", "an element", transmission.element, said)
+            what = "<hardwareInterface> of ros_control in a joint"
+            yield _make_evidence("ros1", "an element", transmission.element, what)
             break
     element = None if robot.xml is None else robot.xml.find_child("mujoco")
     if element is not None:

@@ -124,10 +124,10 @@ def describe_holding(verdict: Verdict) -> str:
     run = verdict.run
     means = run.recording.capabilities.holds_by
     passes = "" if run.settings.self_collision else "; no contact between links"
-    apart = ""
+    note = ""
     if not run.recording.capabilities.loads_leaders and any(j.leader for j in run.bodies.joints):
-        apart = "; mimic joints by motors of their own, whose load does not reach their leaders"
-    return f"{means} within effort limits{apart} ('export mjcf': servos, which yield){passes}"
+        note = "; mimic joints by motors of their own, whose load does not reach their leaders"
+    return f"{means} within effort limits{note} ('export mjcf': servos, which yield){passes}"
 
 
 def _describe_tipping(verdict: Verdict) -> str:

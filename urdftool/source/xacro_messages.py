@@ -93,9 +93,9 @@ def explain_failure(failure: Failure) -> Explanation:
             return found
     text = re.sub(r"\s*when evaluating expression '(?:.*)'$", "", failure.text)
     text = re.sub(r"^<class '[\w.]+'>: | \(<expression>, line 1\)", "", text)
-    said = str(_unwrap(error))
-    if text == f"{said} {said}":  # xacro writes what it wraps twice
-        text = said
+    reason = str(_unwrap(error))
+    if text == f"{reason} {reason}":  # xacro writes what it wraps twice
+        text = reason
     if isinstance(_unwrap(error), KeyError):
         text = f"key {text} does not exist"
     return Explanation("expansion-failed", f"{text}{_format_expression(failure.failed_text)}")

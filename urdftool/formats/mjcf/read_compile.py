@@ -116,12 +116,12 @@ def _compile(
             _keep_all(spec)
             model = spec.compile()
     except (ValueError, RuntimeError, mujoco.FatalError) as error:
-        said = str(error)
-        line = _LINE.search(said)
-        exhausted = _NO_MEMORY_FOR_IMAGE.search(said) or _NO_MEMORY.search(said)
-        if exhausted or (_NO_REASON.search(said) and not line):
+        message = str(error)
+        line = _LINE.search(message)
+        exhausted = _NO_MEMORY_FOR_IMAGE.search(message) or _NO_MEMORY.search(message)
+        if exhausted or (_NO_REASON.search(message) and not line):
             raise MemoryError from None
-        reason = " ".join(_LINE.sub("", said).split()).strip(" ,")
+        reason = " ".join(_LINE.sub("", message).split()).strip(" ,")
         for name in set(_ASSET.findall(reason)):
             reason = reason.replace(name, paths.get(name, name))
         at = int(line[1]) if line else 0

@@ -122,9 +122,9 @@ def _get_frame(compiled: Compiled, link: str, name: str) -> Array | None:
 
 def _measure_apart(one: Array, other: Array) -> float:
     """Measure how far two frames are apart [m, rad], except for turns up to ``SAME_TURN``."""
-    apart = abs(one - other)
-    turn = float(apart[:3, :3].max())
-    return max(float(apart[:3, 3].max()), turn if turn > SAME_TURN else 0.0)
+    change = abs(one - other)
+    turn = float(change[:3, :3].max())
+    return max(float(change[:3, 3].max()), turn if turn > SAME_TURN else 0.0)
 
 
 def _get_shapes(compiled: Compiled) -> Array:

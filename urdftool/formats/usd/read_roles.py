@@ -37,9 +37,9 @@ class Repeated:
         values = {name: _get_number(prim, name) for name in self.factors}
         if all(value is None for value in values.values()):
             return self.factors
-        said = {n: v * self.factors[n] for n, v in values.items() if v is not None}
-        first = next(iter(said.values()))
-        return [n for n, value in said.items() if math.isclose(value, first, rel_tol=ROUNDING)]
+        scaled = {n: v * self.factors[n] for n, v in values.items() if v is not None}
+        first = next(iter(scaled.values()))
+        return [n for n, value in scaled.items() if math.isclose(value, first, rel_tol=ROUNDING)]
 
 
 @dataclass(frozen=True)

@@ -50,16 +50,16 @@ def collision_mesh_displaced(
         for found in find_displaced(robot, link, distance, angle):
             mesh = found.collision.geometry
             assert isinstance(mesh, Mesh)
-            apart = []
+            differences = []
             if found.distance > distance:
-                apart.append(f"offset by {found.distance:.3g} m")
+                differences.append(f"offset by {found.distance:.3g} m")
             if found.angle > angle:
-                apart.append(f"rotated by {math.degrees(found.angle):.3g}°")
+                differences.append(f"rotated by {math.degrees(found.angle):.3g}°")
             pose = "<origin>" if link.xml is not None else "pose"
             yield Problem(
                 link,
                 f"collision of link '{link.name}' uses the mesh of its visual, but is "
-                f"{' and '.join(apart)}; give both the same {pose}",
+                f"{' and '.join(differences)}; give both the same {pose}",
                 at=found.collision.origin or found.collision,
                 data={"distance": found.distance, "angle": found.angle},
             )
@@ -164,9 +164,9 @@ def _is_coincident(
 
     For a mesh that is rotated and unreadable this is assumed.
     """
-    apart, turned = _compute_difference(visual, collision)
+    offset, turned = _compute_difference(visual, collision)
     if turned <= angle:
-        return apart <= distance
+        return offset <= distance
     use = get_extents(robot).get_use(collision)
     outline = get_convex_points(use) if use is not None else None
     if use is None or outline is None:

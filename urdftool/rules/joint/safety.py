@@ -60,11 +60,11 @@ def soft_limits_lock_joint(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
         if safety is None or not joint.is_limited or "k_velocity" not in safety.element.attributes:
             continue
         low, high = safety.soft_lower_limit, safety.soft_upper_limit
-        apart = limit is not None and None not in (limit.lower, limit.upper)
-        if apart and limit is not None:
+        disjoint = limit is not None and None not in (limit.lower, limit.upper)
+        if disjoint and limit is not None:
             lower, upper = limit.lower or 0.0, limit.upper or 0.0
-            apart = lower < upper and (low >= upper or high <= lower)
-        if low >= high or apart:
+            disjoint = lower < upper and (low >= upper or high <= lower)
+        if low >= high or disjoint:
             yield Problem(
                 joint,
                 f"soft limits {low:g} to {high:g} of joint '{joint.name}' leave no range; "
