@@ -23,9 +23,9 @@ from ..mesh.link_extents import get_extents
 from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
 from .bodies import LIGHT, find_negligible_links
 from .corrections import MASS_IN_DOUBT, write_tensor
-from .frame import compute_tensor_about_center
+from .frame import compute_tensor_about_center, has_mesh
 from .proposals import format_tensor
-from .size import SIZE_IN_DOUBT, has_mesh, is_placeholder
+from .size import SIZE_IN_DOUBT, is_placeholder
 from .solids import compute_box, compute_solid_center
 from .tensors import is_zero
 
