@@ -40,7 +40,16 @@ def for_each_module(test):
 
 
 BASE = (
-    *("control_characters", "errors", "extras", "suggestions", "arguments", "parallel", "cluster"),
+    *(
+        "listing",
+        "control_characters",
+        "errors",
+        "extras",
+        "suggestions",
+        "arguments",
+        "parallel",
+        "cluster",
+    ),
     *("cluster_child", "landlock", "isolated", "resident_memory"),
     *(
         "limited",
@@ -68,7 +77,7 @@ BELOW = {
     "console": BASE,
     "configuration": ("source", *BASE),
     "geometry": ("model", "source", *BASE),
-    "mechanics": ("model",),
+    "mechanics": ("model", "listing"),
     "drawing": ("geometry", "model", *BASE),
     "inertia": (
         *("lint", "rules", "finding", "mechanics", "geometry", "model", "source"),

@@ -116,12 +116,12 @@ def _compile(
             _keep_all(spec)
             model = spec.compile()
     except (ValueError, RuntimeError, mujoco.FatalError) as error:
-        message = str(error)
-        line = _LINE.search(message)
-        exhausted = _NO_MEMORY_FOR_IMAGE.search(message) or _NO_MEMORY.search(message)
-        if exhausted or (_NO_REASON.search(message) and not line):
+        error_text = str(error)
+        line = _LINE.search(error_text)
+        exhausted = _NO_MEMORY_FOR_IMAGE.search(error_text) or _NO_MEMORY.search(error_text)
+        if exhausted or (_NO_REASON.search(error_text) and not line):
             raise MemoryError from None
-        reason = " ".join(_LINE.sub("", message).split()).strip(" ,")
+        reason = " ".join(_LINE.sub("", error_text).split()).strip(" ,")
         for name in set(_ASSET.findall(reason)):
             reason = reason.replace(name, paths.get(name, name))
         at = int(line[1]) if line else 0
