@@ -13,7 +13,6 @@ from ...model.mujoco_values import READER_SETTINGS, SECTIONS, describe_required_
 from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import Pose, quaternion_from_rotation
 from ...model.world_settings import OF_MUJOCO
-from ...rules.simulation.mujoco_values import READER_SETTINGS, SECTIONS, describe_required_setting
 from ...source.document import Element
 from ..common.naming import UniqueNames
 from ..written import Written
