@@ -160,6 +160,21 @@ def test_a_second_end_tag_is_called_so():
             parse(SourceFile("m.xml", text))
 
 
+@pytest.mark.parametrize(
+    ("inside", "column", "words"),
+    [
+        ('<a b="c & d"/>', 10, "write &amp; for the character"),
+        ('<a b="c &amp d"/>', 13, "write &amp; for the character"),
+        ("<a b=c/>", 6, "the value of an attribute has no quotes"),
+        ("<a/><!-- c", 5, "the comment that opens here is not closed"),
+    ],
+)
+def test_what_is_missing_is_named_where_it_is(inside, column, words):
+    with pytest.raises(XmlError, match=words) as caught:
+        parse(SourceFile("m.xml", f"<m>\n{inside}\n</m>".encode()))
+    assert (caught.value.at.line, caught.value.at.column) == (2, column)
+
+
 def test_lax_readers_see_the_mended_file_at_the_same_bytes():
     text = b"<!-- (c) -- all -->\n<?xml version='1.0'?>\n<robot name='r'/>"
     repaired = repair(SourceFile("r.urdf", text))

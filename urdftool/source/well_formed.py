@@ -155,6 +155,12 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
         reason = f"</{closing}> is an end tag, but no element is open here; remove it"
     elif reason == _INVALID and _is_after_value(data, offset):
         reason = "a blank is missing between two attributes"
+    elif reason == _INVALID and re.search(rb"&[\w.#-]*$", data[max(0, offset - 80) : offset]):
+        reason = "'&' begins an entity, such as &lt;; write &amp; for the character"
+    elif reason == _INVALID and re.search(rb"<[^<>]*=\s*$", data[max(0, offset - 400) : offset]):
+        reason = "the value of an attribute has no quotes; add them"
+    elif reason == "unclosed token" and data.startswith(b"<!--", offset):
+        reason = "the comment that opens here is not closed; add '-->' at its end"
     elif data.startswith((b"<?xml", b"\xef\xbb\xbf<?xml")) and offset <= data.find(b"?>"):
         reason = f'the XML declaration is invalid ({reason}); use <?xml version="1.0"?>'
         case = "a wrong declaration"
