@@ -27,69 +27,12 @@ from .from_sdf import propose_urdf_spelling
 from .owner import describe_owner
 from .vocabulary_table import (
     DIALECT_ATTRIBUTES,
+    ELEMENT_REMEDIES,
     VOCABULARY,
     get_attributes,
     get_census,
     suggest_word,
 )
-
-_ELEMENT_REMEDIES = {
-    ("robot", "inertial"): "write it inside a <link>",
-    ("robot", "visual"): "write it inside a <link>",
-    ("robot", "collision"): "write it inside a <link>",
-    ("robot", "origin"): "write it in the joint of the root link, or set the pose when spawning",
-    ("robot", "plugin"): "write it inside a <gazebo>",
-    ("robot", "model"): "write links and joints directly in <robot>, not in an SDF <model>",
-    ("link", "pose"): "write the pose in the <origin> of the parent joint",
-    ("link", "origin"): "write it in the <origin> of the parent joint",
-    ("link", "mass"): "write it inside <inertial>",
-    ("link", "inertia"): "write it inside <inertial>",
-    ("link", "geometry"): "write it inside <visual>, <collision> or both",
-    ("link", "material"): "write it inside <visual>",
-    ("link", "color"): "write it inside <visual><material>",
-    ("link", "sensor"): 'write it inside <gazebo reference="the link">',
-    ("link", "gravity"): "remove it, since gravity acts by default; to switch it off for Gazebo, "
-    'write <turnGravityOff>true</turnGravityOff> inside <gazebo reference="the link">',
-    ("link", "self_collide"): 'write <selfCollide> inside <gazebo reference="the link">',
-    ("link", "surface"): 'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
-    ("link", "parent"): "only joints have a parent",
-    ("visual", "pose"): "write <origin> in place of the SDF element",
-    ("visual", "color"): "write it inside <material>",
-    ("visual", "texture"): "write it inside <material>",
-    ("geometry", "material"): "write it one level up, in <visual>",
-    ("geometry", "origin"): "write it one level up, next to <geometry>",
-    ("collision", "pose"): "write <origin> in place of the SDF element",
-    ("collision", "surface"): 'write mu1, mu2, kp and kd inside <gazebo reference="the link">',
-    ("collision", "max_contacts"): 'write <maxContacts> inside <gazebo reference="the link">',
-    ("inertial", "pose"): "write <origin> in place of the SDF element",
-    ("inertial", "ixx"): "write the six numbers as attributes of <inertia>",
-    ("inertia", "ixx"): "write six attributes in place of the SDF elements",
-    ("box", "size"): 'write <box size="x y z"/> in place of the SDF element',
-    ("cylinder", "radius"): 'write <cylinder radius="…" length="…"/> in place of the SDF element',
-    ("cylinder", "length"): 'write <cylinder radius="…" length="…"/> in place of the SDF element',
-    ("sphere", "radius"): 'write <sphere radius="…"/> in place of the SDF element',
-    ("mesh", "uri"): 'write <mesh filename="…"/> in place of the SDF element',
-    ("mesh", "scale"): 'write <mesh scale="x y z"/> in place of the SDF element',
-    ("material", "ambient"): "write <color rgba=…> in place of the SDF element",
-    ("material", "diffuse"): "write <color rgba=…> in place of the SDF element",
-    ("material", "specular"): "write <color rgba=…> in place of the SDF element",
-    ("material", "script"): 'write materials of Gazebo inside <gazebo reference="the link">',
-    ("joint", "pose"): "write <origin> in place of the SDF element",
-    ("joint", "joint_properties"): 'write <dynamics damping="…" friction="…"/>',
-    ("joint", "joint_limits"): 'write <limit lower="…" upper="…" effort="…" velocity="…"/>',
-    ("joint", "damping"): 'write <dynamics damping="…"/>',
-    ("joint", "friction"): 'write <dynamics friction="…"/>',
-    ("joint", "physics"): 'write it inside <gazebo reference="the joint">',
-    ("joint", "actuator"): "write it inside a <transmission>",
-    ("axis", "xyz"): 'write <axis xyz="x y z"/> in place of the SDF element',
-    ("axis", "limit"): "write <limit> next to <axis>, not inside as in SDF",
-    ("axis", "dynamics"): "write <dynamics> next to <axis>, not inside as in SDF",
-    ("limit", "lower"): "write an attribute in place of the SDF element",
-    ("limit", "upper"): "write an attribute in place of the SDF element",
-    ("limit", "effort"): "write an attribute in place of the SDF element",
-    ("limit", "velocity"): "write an attribute in place of the SDF element",
-}
-"""Remedy for a misplaced element, by parent and tag."""
 
 _HARMLESS = frozenset((("collision", "material"),))
 """Elements that readers ignore without a loss. They are not reported."""
@@ -206,7 +149,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
         if parent.tag == "geometry" and not _is_misplaced(element, parent):
             continue
         word = suggest_word(element.tag, VOCABULARY[parent.tag].children)
-        instead = _ELEMENT_REMEDIES.get((parent.tag, element.tag))
+        instead = ELEMENT_REMEDIES.get((parent.tag, element.tag))
         if word is None and not instead:
             other.setdefault((parent.tag, element.tag), []).append(element)
         elif instead:
