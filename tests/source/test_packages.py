@@ -100,6 +100,20 @@ install(TARGETS lib EXPORT x LIBRARY DESTINATION lib)
 """
 
 
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("arm_descripton", "arm_description"),
+        ("arm_descriptions", "arm_description"),
+        ("ur_descripton", ""),
+        ("pr2_description", ""),
+    ],
+)
+def test_the_package_with_the_nearest_name_is_suggested(tmp_path, name, meant):
+    home = package(tmp_path / "ws" / "arm_description", "arm_description")
+    assert Packages(robot(home)).suggest_package(name) == meant
+
+
 def test_install_rules_are_followed(tmp_path):
     home = package(tmp_path / "demo", "demo", CMAKE)
     file = robot(home / "description" / "urdf")

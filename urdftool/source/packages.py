@@ -268,6 +268,8 @@ class Packages:
         near = find_nearest(name, (*known, *self.named, *self.configured), 0.8)
         stems = [_ENDING.sub("", one) for one in (name, near)]  # ur_description is not pr2_…
         alike = fold(name) == fold(near) or stems[0] == stems[1]
+        if stems[0] == name and stems[1] != near:  # the ending may be what is misspelled
+            alike = alike or find_nearest(name, (near,), 0.9) != ""
         return near if alike or find_nearest(stems[0], stems[1:], 0.8) else ""
 
     def list_neighbors(self) -> list[Path]:

@@ -70,7 +70,8 @@ def give_small_inertial(link: Link) -> Proposal | None:
         return None
     mass, moment = _SMALL
     lines = _format_inertial(mass, "0 0 0", (moment, 0.0, 0.0, moment, 0.0, moment))
-    return unsafe(f"add a mass of {mass * 1000:g} g", prepend_child(link.element, *lines))
+    what = f"add a mass of {mass * 1000:g} g with moments of inertia of {moment:g} kg·m²"
+    return unsafe(what, prepend_child(link.element, *lines))
 
 
 def _format_inertial(mass: float, center: str, six: SymmetricTensor, rpy: str = "") -> Lines:

@@ -18,7 +18,7 @@ from ...workspace import Workspace
 from ..fix import FixContext, Proposal, Span, append_child, safe, substitute, unsafe
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses
 from ..rule import BOTH, ERROR, INFO, ROS, SAFE, UNSAFE, WARNING, Problem, rule
-from ..words import fold, quote
+from ..words import quote
 from .dependencies import (
     add_dependency,
     find_dependency_chain,
@@ -77,8 +77,7 @@ def _is_misnamed(name: str, description: Description) -> bool:
     try:
         description.packages.find(name)
     except PackageNotFound:
-        near = description.packages.suggest_package(name)
-        return not _PACKAGE.fullmatch(name) or (near != "" and fold(near) == fold(name))
+        return not _PACKAGE.fullmatch(name) or description.packages.suggest_package(name) != ""
     return False
 
 
