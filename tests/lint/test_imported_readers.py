@@ -231,3 +231,14 @@ def test_a_remark_about_another_engine_is_off_whatever_pybullet_does_with_inerti
     robot = ROBOT.replace('<geometry><box size="0.1 0.1 0.1"/></geometry>', shape)
     names = _names(tmp_path, f"{code}\n{flag}\n", robot=robot)
     assert ("dae-as-collision" in names) is reported
+
+
+@pytest.mark.parametrize(("package", "used"), [("gazebo_ros", False), ("rviz", True)])
+def test_a_launch_file_that_starts_gazebo_counts_beside_python_code(tmp_path, package, used):
+    (tmp_path / "launch").mkdir()
+    text = f'<launch><include file="$(find {package})/launch/a.launch"/></launch>'
+    (tmp_path / "launch" / "a.launch").write_text(text)
+    (tmp_path / "setup.py").write_text("import pybullet\n")
+    path = tmp_path / "cart.urdf"
+    path.write_text(ROBOT)
+    assert (find_imported_readers(read_description(path), frozenset()) is not None) is used

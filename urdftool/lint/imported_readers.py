@@ -23,6 +23,7 @@ from ..source.comments import blank_comments
 from ..source.description import Description
 from ..source.nearby_files import read_optional_file
 from ..workspace import Workspace, memoize_by_workspace
+from .evidence import read_launch_files
 
 _READERS = {
     **dict.fromkeys(("mujoco", "mujoco_py", "dm_control", "robosuite", "brax"), "mujoco"),
@@ -103,7 +104,7 @@ def find_imported_readers(description: Description, targets: frozenset[str]) -> 
 
     Returns:
         The readers; None if the code imports none, or an engine that effects do not name, or if the
-        project is for ROS, where others use its packages.
+        project is for ROS, where others use its packages, or has a launch file that starts Gazebo.
     """
     if description.path == "-" or not targets.isdisjoint(ROS):
         return None
@@ -116,6 +117,8 @@ def find_imported_readers(description: Description, targets: frozenset[str]) -> 
         if is_of_planner(files, place):
             return _PLANNER
         if _is_packaged(files, place, holds_module):
+            if read_launch_files(files, place):
+                return None
             found = _read_imports(files, str(place))
             return found and found._replace(readers=found.readers | targets)
     return None
