@@ -188,6 +188,25 @@ def test_each_setting_is_written_or_its_loss_is_named(tmp_path, form, target):
     assert silent == []
 
 
+ELEMENTS = """<battery name="b"><voltage>12</voltage></battery><projector name="p"/><other>1</other>
+<collision><surface><friction><bullet><friction>.3</friction></bullet></friction></surface></collision>
+<visual><cast_shadows>false</cast_shadows><visibility_flags>1</visibility_flags></visual>"""
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.library("pxr")
+@pytest.mark.parametrize("target", ["mjcf", "usd"])
+def test_each_element_of_a_block_that_is_not_written_is_named_once(tmp_path, target):
+    text = URDF.format(f'<gazebo reference="b">{ELEMENTS}</gazebo>')
+    text = text.replace('<link name="b">', '<link name="b"><collision><geometry><box size="1 1 1"/>'
+                        "</geometry></collision>")  # fmt: skip
+    losses = EXPORTS[target](read(tmp_path, "urdf", text)).losses
+    named = [loss.message for loss in losses if loss.code == "lossy-gazebo"]
+    words = ("<battery>", "<projector>", "<other>", "surface/friction/bullet/friction")
+    assert [sum(word in message for message in named) for word in words] == [1, 1, 1, 1]
+    assert {loss.name for loss in losses if loss.code == "lossy-gazebo"} == {"b"}
+
+
 FIELDS = {
     "lower": -0.5, "upper": 0.5, "effort": 7.0, "velocity": 3.0, "damping": 0.7, "friction": 0.6,
     "armature": 0.4, "mass": 3.0, "ixx": 0.12, "axis": (0.0, 1.0, 0.0), "type": "prismatic",

@@ -5,8 +5,10 @@ Names refer to links and joints of the same robot. Lengths are in meters, angles
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from ..source.location import Place
 from .part import ZERO, Origin, Part, Vector
 from .settings import Settings
 
@@ -232,3 +234,11 @@ class NativeElement(Part):
     def get(self, name: str) -> str | None:
         """Return an attribute as written; None without it."""
         return self.attributes.get(name)
+
+    def list_leaves(self) -> Iterator[tuple[str, Place]]:
+        """Yield the path below it, and the place, of each element in it without children."""
+        for child in self.children:
+            if not child.children:
+                yield child.tag, child.place
+            for path, place in child.list_leaves():
+                yield f"{child.tag}/{path}", place

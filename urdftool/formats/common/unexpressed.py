@@ -8,8 +8,10 @@ from typing import NamedTuple
 
 from ...diagnostic import Severity
 from ...model.appearance import APPEARANCE, find_unknown_script
+from ...model.blocks import list_unread_elements
 from ...model.elements import BALL_TYPES, Link, Material, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
+from ...model.native import LOOP, OTHER_TAGS
 from ...model.part import Part
 from ...model.read_settings import list_settings
 from ...model.settings import LOST_SETTINGS, LUMPING_TAGS, SPRING, TUNING, Setting, Settings
@@ -135,6 +137,42 @@ def report_unwritten_settings(
             written.report_loss(
                 "setting", text, place, kind=kind, name=name, severity=severity, data=data
             )
+
+
+def report_blocks(
+    robot: Robot, written: Written, reasons: Mapping[str, str] = MappingProxyType({})
+) -> None:
+    """Report what ``<gazebo>`` blocks of a URDF have in addition to settings and other parts.
+
+    Args:
+        robot: The source.
+        written: The export, which receives the losses.
+        reasons: Why the format does not have elements, by tag.
+    """
+    for block, element in list_unread_elements(robot):
+        name, tag = block.reference or "", element.tag
+        if not name or name in robot.link or name in robot.joint:
+            known = any(tag in tags for tags in OTHER_TAGS.values())
+            why = reasons.get(tag, "") if known else "the element is unknown"
+            severity = Severity.WARNING if known else Severity.INFO
+            _report_element(f"<{tag}>", name, why, element.place, severity, written)
+    known_places: set[Place] = set()
+    for rest in robot.native if robot.format == "urdf" else ():
+        kind, _, name = rest.section.partition(" ")
+        if rest.tag in OTHER_TAGS.get(kind, ()) or rest.tag == LOOP:
+            continue
+        severity = Severity.INFO if rest.tag == "visual" else Severity.WARNING
+        for path, place in rest.list_leaves():
+            if place not in known_places and path != "laser_retro":  # which is a setting
+                known_places.add(place)
+                _report_element(f"{path} of <{rest.tag}>", name, "", place, severity, written)
+
+
+def _report_element(
+    what: str, name: str, why: str, place: Place, severity: Severity, written: Written
+) -> None:
+    text = f"{what}{f' of {name!r}' if name else ''} is not written{f': {why}' if why else ''}"
+    written.report_loss("gazebo", text, place, kind="gazebo", name=name, severity=severity)
 
 
 _EXPRESSED_TAGS = LUMPING_TAGS | {"static"}

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...diagnostic import Severity
-from ...model.blocks import list_unread_elements
 from ...model.elements import Collision, Link, Robot
 from ...model.numbers import format_content, format_numbers_text
 from ...model.settings import LOST_SETTINGS, SURFACE_OF_MUJOCO, Setting, Settings, get_number
-from ...source.document import Element
-from ..common.unexpressed import Reason, report_unwritten_settings
+from ..common.unexpressed import Reason, report_blocks, report_unwritten_settings
 from ..written import Written
 
 DEFAULT_FRICTION = "1 0.005 0.0001"
@@ -111,10 +109,7 @@ def _is_written(row: Setting) -> bool:
 def report_gazebo_losses(robot: Robot, written: Written) -> None:
     """Report the settings and extensions that are not exported."""
     report_unwritten_settings(robot, written, _is_written, MISSING)
-    for block, element in list_unread_elements(robot):
-        reference = block.reference
-        if reference is None or reference in robot.link or reference in robot.joint:
-            _report_element(reference or "", element, written)
+    report_blocks(robot, written, LOST)
     for plugin in robot.plugins:
         written.report_loss(
             "plugin",
@@ -124,16 +119,3 @@ def report_gazebo_losses(robot: Robot, written: Written) -> None:
             name=plugin.name,
             severity=Severity.INFO,
         )
-
-
-def _report_element(reference: str, element: Element, written: Written) -> None:
-    about = f" of '{reference}'" if reference else ""
-    lost = LOST.get(element.tag)
-    written.report_loss(
-        "gazebo",
-        f"<{element.tag}>{about} is not exported: {lost or 'the element is unknown'}",
-        element.place,
-        kind="gazebo",
-        name=reference,
-        severity=Severity.WARNING if lost else Severity.INFO,
-    )

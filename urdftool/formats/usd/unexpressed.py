@@ -8,7 +8,12 @@ from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.part import Part
 from ...model.settings import SPRING, Setting
-from ..common.unexpressed import report_looks, report_unexpressed, report_unwritten_settings
+from ..common.unexpressed import (
+    report_blocks,
+    report_looks,
+    report_unexpressed,
+    report_unwritten_settings,
+)
 from ..written import Written
 
 EXPRESSED = (
@@ -28,6 +33,7 @@ def report_losses(robot: Robot, written: Written) -> None:
     """Report each part that is not written."""
     report_unexpressed(robot, written, expressed=EXPRESSED)
     report_unwritten_settings(robot, written, _is_written)
+    report_blocks(robot, written)
     report_looks(robot, written)
     for code, what, part, name in _list_parts(robot):
         written.report_loss(
