@@ -53,7 +53,7 @@ def export_sdf(
         world: Whether to write a world with ground and sun around the model.
         fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` repairs physically inconsistent tensors.
         mesh_dir: Folder of the meshes, relative to the model.
-        actuator_config: A TOML file with damping, friction and force range of joints.
+        actuator_config: A TOML file with settings of joints, which ``--actuator-config`` lists.
         force: Whether to continue past errors if a robot remains.
         verify: Whether to read the result back and compare it; ``checks`` has the result.
         overwrite: Whether to replace files not written by urdftool.
@@ -133,8 +133,7 @@ def export_mjcf(
             the robot stands; empty chooses the likeliest.
         base_sensors: Whether to add sensors of linear velocity, angular velocity, acceleration and
             orientation to a free base that has none.
-        actuator_config: A TOML file with gains, armature, damping, friction and force range of
-            joints by name or pattern.
+        actuator_config: A TOML file with settings of joints, which ``--actuator-config`` lists.
         armature: Reflected rotor inertia of every joint [kg·m², or kg for a slide joint].
         exclude: Pairs of links that never collide: ``"adjacent"`` excludes links connected by a
             joint, ``"touching"`` also those that overlap in the home position, ``"none"`` none.

@@ -53,8 +53,7 @@ def export_usd(
             description drives.
         timestep: Physics time step [s] for which gains are chosen; None for 2 ms.
         self_collision: Whether links collide with each other; None with an SRDF.
-        actuator_config: A TOML file with gains, armature, damping, friction and force range of
-            joints.
+        actuator_config: A TOML file with settings of joints, which ``--actuator-config`` lists.
         approximation: Collision geometry of a mesh: its convex hull, or its triangles.
         decompose: Whether to decompose collision meshes into convex pieces, with CoACD.
         fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` repairs physically inconsistent tensors.

@@ -236,7 +236,7 @@ _UNBOUNDED = 1e15
 
 
 def _has_dynamics(joint: Element) -> bool:
-    """Tell whether a joint of SDF has damping, friction or a spring."""
+    """Tell whether a joint of SDF has dynamics: resistance or a spring."""
     part = _find(joint, "axis", "dynamics")
     tags = (*RESISTANCE_OF_URDF, "spring_stiffness")
     return part is not None and any(number(_get_text(part, tag)) for tag in tags)

@@ -55,7 +55,7 @@ class Closure(Part):
         axis: Axis of an SDF joint in the frame of the connection.
         is_active: Whether it acts at the start.
         is_limited: Whether its position has limits.
-        has_dynamics: Whether it has damping, friction or a spring.
+        has_dynamics: Whether it has resistance or a spring.
     """
 
     name: str = ""

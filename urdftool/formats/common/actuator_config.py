@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -26,11 +26,19 @@ from typing import Any
 from ...errors import ConfigError
 from ...model.settings import RESISTANCE, Setting
 from ...suggestions import suggest_name
+from .option import Option
 
-KEYS = ("kp", "kd", "armature", "damping", "friction", "force-range", "type")
+KEYS = ("kp", "kd", *sorted(row.name for row in RESISTANCE), "force-range", "type")
 TYPES = ("position", "velocity", "motor")
 
 _TABLE = "joints"
+
+
+def make_file_option(keys: Sequence[str] = KEYS, end: str = ".") -> Option:
+    """Make the option with the path of such a file, of which an export uses some keys."""
+    *others, last = keys
+    text = f"TOML file with {', '.join(others)} and {last} under "
+    return Option(f'{text}[joints."NAME or PATTERN"]{end}', kind=Path, metavar="FILE")
 
 
 @dataclass(frozen=True)

@@ -8,15 +8,14 @@ from collections.abc import Iterable, Sequence
 
 from lxml import etree
 
+from ...model.settings import RESISTANCE
 from ..common.naming import UniqueNames
 from .gazebo import DEFAULT_FRICTION
 
 # attribute -> MuJoCo's default
 JOINT = {
     "axis": "0 0 1",
-    "damping": "0",
-    "frictionloss": "0",
-    "armature": "0",
+    **{row.mjcf_attribute: "0" for row in RESISTANCE},
     "solreflimit": "0.02 1",
 }
 GEOM = {"type": "sphere", "friction": DEFAULT_FRICTION}

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 from ...model.sensors import KINDS as SENSORS
 from ...model.sensors import SensorKind
-from ...model.settings import OF_JOINTS, OF_LINKS, SURFACE, Setting
+from ...model.settings import OF_JOINTS, OF_LINKS, RESISTANCE, SURFACE, Setting
 from .gazebo import LOST, MISSING
 from .loops import KINDS as CLOSERS
 from .structure import KINDS
@@ -113,7 +113,7 @@ JOINT: tuple[Row, ...] = (
     ("no `limit`", CLOSE, "no `range`"),
     ("`limit@effort`", EXACT, "`actuatorfrcrange`; 0 cannot be exported and is reported"),
     ("`limit@velocity`", CLOSE, "number `NAME_velocity_limit` in `custom`"),
-    ("`dynamics`", EXACT, "`damping`, `frictionloss`"),
+    ("`dynamics`", EXACT, ", ".join(f"`{row.mjcf_attribute}`" for row in RESISTANCE if row.path)),
     (
         "`mimic`",
         EXACT,

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from ...model.elements import Robot
+from ..common.actuator_config import make_file_option
 from ..common.cut import Cutter
 from ..common.option import (
     ACTUATORS,
@@ -77,13 +78,7 @@ class Options:
         "Add missing sensors of a free base: linear velocity, gyro, accelerometer, orientation.",
         kind=bool,
     )
-    actuator_config: Path | None = declare(
-        None,
-        "TOML file with kp, kd, armature, damping, friction, force-range and type under "
-        '[joints."NAME or PATTERN"].',
-        kind=Path,
-        metavar="FILE",
-    )
+    actuator_config: Path | None = declare(None, make_file_option())
     armature: float | None = declare(
         None,
         "Rotor inertia reflected at every joint [kg·m², or kg for prismatic joints].",

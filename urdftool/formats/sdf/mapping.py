@@ -12,10 +12,19 @@ from ...model.gazebo_plugins import (
     SENSOR_PLUGINS,
     SYSTEM_PLUGINS,
 )
-from ...model.settings import LUMPING_TAGS, OF_JOINTS, OF_LINKS, SURFACE, Setting
+from ...model.settings import (
+    LUMPING_TAGS,
+    OF_JOINTS,
+    OF_LINKS,
+    RESISTANCE_OF_URDF,
+    SURFACE,
+    Setting,
+)
 from .joints import SDF_TYPES
 from .options import DEFAULT_VERSION, RELEASES, VERSIONS
 from .sensor_types import SYSTEMS, TO_CLASSIC, TO_GZ, SensorType
+
+_DYNAMICS = f"dynamics {', '.join(RESISTANCE_OF_URDF)}"
 
 ELEMENTS = (
     ("robot name", "model name", ""),
@@ -51,7 +60,7 @@ ELEMENTS = (
         "limit effort, velocity",
         "their absolute values; in SDF negative means no limit",
     ),
-    ("dynamics damping, friction", "dynamics damping, friction", ""),
+    (_DYNAMICS, _DYNAMICS, ""),
     ("mimic", "axis mimic", "from SDF 1.11 on"),
     ("safety_controller, calibration, transmission", "a comment", "lossy"),
     ("ros2_control", "a comment", "its plugin reads robot_description"),

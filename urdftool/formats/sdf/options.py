@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from ...errors import ConfigError
+from ...model.settings import RESISTANCE_OF_URDF
+from ..common.actuator_config import make_file_option
 from ..common.option import (
     FIX_INERTIA,
     FORCE,
@@ -101,10 +103,9 @@ class Options:
     fix_inertia: FixInertia = declare("none", FIX_INERTIA)
     actuator_config: Path | None = declare(
         None,
-        'TOML file with damping, friction and force-range under [joints."NAME or PATTERN"]; '
-        "the same file as for export mjcf.",
-        kind=Path,
-        metavar="FILE",
+        make_file_option(
+            (*RESISTANCE_OF_URDF, "force-range"), "; the same file as for export mjcf."
+        ),
     )
 
     def __post_init__(self) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, get_args
 
+from ..common.actuator_config import KEYS, make_file_option
 from ..common.cut import Cutter
 from ..common.option import (
     ACTUATORS,
@@ -69,13 +70,7 @@ class Options:
         "Whether links collide with each other.  [default: with --srdf or <self_collide>]",
         kind=bool,
     )
-    actuator_config: Path | None = declare(
-        None,
-        "TOML file with kp, kd, armature, damping, friction and force-range under "
-        '[joints."NAME or PATTERN"].',
-        kind=Path,
-        metavar="FILE",
-    )
+    actuator_config: Path | None = declare(None, make_file_option(KEYS[:-1]))
     approximation: Approximation = declare(
         "hull",
         "Collision geometry of a mesh: its convex hull, or its triangles.",

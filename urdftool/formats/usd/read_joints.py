@@ -12,7 +12,7 @@ from ...diagnostic import Severity
 from ...model.elements import Dynamics, Joint, Limit, Mimic, Vector
 from ...model.mechanism import JointActuator
 from ...model.settings import RESISTANCE
-from .read_stage import ROUNDING, Context, convert_float, get_targets, has_schema
+from .read_stage import GAINS, ROUNDING, Context, convert_float, get_targets, has_schema
 
 _AXES: dict[str, Vector] = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
@@ -278,7 +278,7 @@ def read_actuator(
         return None
     stiffness, damping = (
         convert_float(context.get_value(prim, f"drive:{units.name}:physics:{gain}") or 0.0, rate)
-        for gain, rate in (("stiffness", units.force / units.position), ("damping", units.rate))
+        for gain, rate in zip(GAINS, (units.force / units.position, units.rate), strict=True)
     )
     if not stiffness and not damping:
         return None

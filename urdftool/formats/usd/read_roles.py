@@ -12,7 +12,7 @@ from pxr import Usd
 from ...model.settings import RESISTANCE, Setting
 from .read_joints import JointKind, Units, find_units, has_drive
 from .read_links import find_contradicting_inertia
-from .read_stage import ROUNDING, Context
+from .read_stage import GAINS, ROUNDING, Context
 
 _PHYSICAL = re.compile(r"(physics|physx\w*|newton|mjc|drive|limit|state|omniphysics|isaac):.+")
 
@@ -115,7 +115,7 @@ def list_joint_roles(context: Context, prim: Usd.Prim, kind: JointKind) -> Roles
 def _list_groups(units: Units, *, is_driven: bool) -> tuple[Repeated, ...]:
     """Return the attributes of a joint that say its effort, velocity, friction and so on."""
     drive = f"drive:{units.name}:physics"
-    gains = (f"{drive}:stiffness", f"{drive}:damping") if is_driven else ()
+    gains = [f"{drive}:{gain}" for gain in GAINS] if is_driven else []
     effort = {f"{drive}:maxForce": 1.0} if is_driven else {}
     axis, there = f"physxJointAxis:{units.name}", units.by_radian / units.rate
     velocity = ("newton:velocityLimit", f"{axis}:maxJointVelocity", "physxJoint:maxJointVelocity")

@@ -9,7 +9,7 @@ from pxr import Sdf, Usd, UsdPhysics
 from ...diagnostic import Severity
 from ...model.settings import RESISTANCE
 from .read_native import has_default
-from .read_stage import Context
+from .read_stage import GAINS, Context
 
 _NAMESPACES = re.compile(r"(physics|physx\w*|newton|mjc|drive|limit|state|urdf|omniphysics)$")
 
@@ -17,7 +17,7 @@ _READ = re.compile(
     r"physics:(mass|centerOfMass|diagonalInertia|principalAxes|rigidBodyEnabled|collisionEnabled|"
     r"approximation|axis|(lower|upper)Limit|local(Pos|Rot)[01]|jointEnabled|excludeFromArticulation)"
     r"|newton:(inertia|velocityLimit|mimic(Coef[01]|Enabled)|maxHullVertices)"
-    r"|drive:\w+:physics:(maxForce|stiffness|damping)|limit:\w+:physics:(low|high)"
+    rf"|drive:\w+:physics:(maxForce|{'|'.join(GAINS)})|limit:\w+:physics:(low|high)"
     r"|physxJointAxis:\w+:maxJointVelocity|physxJoint:maxJointVelocity|physxMimicJoint:\w+:(gearing|offset)"
     r"|physics:((static|dynamic)Friction|restitution)"
     r"|mjc:(coef[01]|actuatorfrc(range:(min|max)|limited))|"
