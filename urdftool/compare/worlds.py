@@ -33,8 +33,6 @@ def _choose_world_rows(a: Robot, b: Robot) -> tuple[list[Setting], str]:
     compared if each other file writes it, or one writes another than that of the Earth, which is
     what simulators use for a file without one.
     """
-    if "usd" in (a.format, b.format):
-        return [], "not read of USD"
     if a.format == b.format:
         without = [one for one in (a, b) if one.format == "sdf" and find_world(one) is None]
         reason = "in the row of simulator data" if a.format == "urdf" else ""

@@ -1,4 +1,4 @@
-"""Settings of the world around a robot: ``<option>`` of MJCF, and ``<world>`` of SDF, as tables.
+"""Settings of the world around a robot, as tables: of MJCF, SDF and USD.
 
 The formats share gravity alone: wind and magnetic field have other effects, or units, in MuJoCo.
 """
@@ -12,10 +12,20 @@ from .elements import Robot
 from .numbers import describe_content
 from .settings import Content, Setting, Settings, Value, add_kinds, parse
 
+_GRAVITY = "physics:gravityMagnitude"
+
 OF_MUJOCO = (
     Setting("integrator", "", "", "Euler", mjcf="option integrator", kind="text"),
     Setting("cone", "", "", "pyramidal", mjcf="option cone", kind="text"),
-    Setting("gravity", "m/s²", "gravity", (0.0, 0.0, -9.81), mjcf="option gravity", kind="vector"),
+    Setting(
+        "gravity",
+        "m/s²",
+        "gravity",
+        (0.0, 0.0, -9.81),
+        mjcf="option gravity",
+        usd=_GRAVITY,
+        kind="vector",
+    ),
     Setting("wind", "m/s", "", (0.0, 0.0, 0.0), mjcf="option wind", kind="vector"),
     Setting("magnetic", "", "", (0.0, -0.5, 0.0), mjcf="option magnetic", kind="vector"),
     Setting("density", "kg/m³", "", 0.0, mjcf="option density", kind="number"),
@@ -56,7 +66,7 @@ OF_MUJOCO = (
 
 OF_SDF = add_kinds("world", (
     Setting("gravity", "m/s²", "gravity", (0.0, 0.0, -9.8), mjcf="option gravity",
-            also="physics/gravity"),
+            usd=_GRAVITY, also="physics/gravity"),
     Setting("wind_velocity", "m/s", "wind/linear_velocity", (0.0, 0.0, 0.0)),
     Setting("magnetic_field", "T", "magnetic_field", (6e-06, 2.3e-05, -4.2e-05),
             also="physics/magnetic_field"),
@@ -68,6 +78,9 @@ OF_SDF = add_kinds("world", (
 
 Gravity and magnetic field are in ``<physics>`` before SDF 1.6.
 """
+
+OF_USD = tuple(row for row in OF_MUJOCO if row.usd)
+"""Settings of a ``PhysicsScene`` of USD, of which Newton has the same gravity by default."""
 
 _CONTACT = ("collisions", "surface", "contact pairs")
 
@@ -108,7 +121,7 @@ _DECIDED_BY_FLAG: dict[str, tuple[str, ...]] = {
 }
 """The same for a flag of ``<option>`` that is not as by default; others concern the solver."""
 
-BY_FORMAT = {"mjcf": OF_MUJOCO, "urdf": OF_MUJOCO, "sdf": OF_SDF}
+BY_FORMAT = {"mjcf": OF_MUJOCO, "urdf": OF_MUJOCO, "sdf": OF_SDF, "usd": OF_USD}
 """Settings of the world of a robot by its format; a URDF has those in ``<mujoco>``."""
 
 

@@ -317,3 +317,32 @@ def test_variants_that_are_not_selected_are_reported(read):
     )
     loss = codes(read(text))["unread-variant"]
     assert loss.data["names"] == ["hand: none, not gripper"]
+
+
+SCENE = 'def PhysicsScene "scene"\n{{\n{}}}\n'
+MAGNITUDE = "    float physics:gravityMagnitude = {}\n"
+DIRECTION = "    vector3f physics:gravityDirection = ({})\n"
+
+
+@pytest.mark.parametrize(
+    ("scene", "units", "gravity"),
+    [
+        (MAGNITUDE.format(1.62), (1, "Z"), (0, 0, -1.62)),
+        (MAGNITUDE.format(162), (0.01, "Y"), (0, 0, -1.62)),
+        (MAGNITUDE.format(2) + DIRECTION.format("2, 0, 0"), (1, "Z"), (2, 0, 0)),
+        (MAGNITUDE.format(2) + DIRECTION.format("0, 0, 1"), (1, "Y"), (0, -2, 0)),
+        (DIRECTION.format("0, 0, 1"), (1, "Z"), (0, 0, 9.81)),
+        ("", (1, "Z"), None),
+    ],
+)
+def test_gravity_of_a_scene(read, scene, units, gravity):
+    from urdftool.compare.compare import compare_robots
+
+    text = stage(*TWO, turning("j", "a", "b"), unit=units[0], up=units[1])
+    robot, plain = read(text + SCENE.format(scene)).robot, read(text).robot
+    assert "gravity" not in plain.world
+    found = [d.what for d in compare_robots(robot, plain).differences if d.row == "world"]
+    assert found == ([] if gravity is None else ["gravity"])
+    if gravity is not None:
+        assert robot.world["gravity"].content == pytest.approx(gravity)
+        assert robot.world["gravity"].place.line > text.count("\n")

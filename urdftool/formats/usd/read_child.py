@@ -20,6 +20,7 @@ from .read_shapes import add_shapes
 from .read_stage import Context
 from .read_tree import add_tree
 from .read_unread import report_unread
+from .read_world import read_world
 
 
 def read_stage(
@@ -52,6 +53,7 @@ def _read(
         root = Element("robot", {"name": robot.name}, None, file, 0)
         document = Document(file, root, [])
         robot.source = Description(shown, document, layers.list_files(), finder)
+        robot.world = read_world(context)
         joints = add_tree(context, robot)
         report_unread(context)
         add_native(context, robot, joints)

@@ -19,7 +19,7 @@ _READ = re.compile(
     r"|newton:(inertia|velocityLimit|mimic(Coef[01]|Enabled)|maxHullVertices)"
     rf"|drive:\w+:physics:(maxForce|{'|'.join(GAINS)})|limit:\w+:physics:(low|high)"
     r"|physxJointAxis:\w+:maxJointVelocity|physxJoint:maxJointVelocity|physxMimicJoint:\w+:(gearing|offset)"
-    r"|physics:((static|dynamic)Friction|restitution)"
+    r"|physics:((static|dynamic)Friction|restitution|gravity(Magnitude|Direction))"
     r"|mjc:(coef[01]|actuatorfrc(range:(min|max)|limited))|"
     + "|".join(
         name.replace("*", r"\w+")
