@@ -16,8 +16,8 @@ _EARTH = 9.81
 def read_world(context: Context) -> Settings:
     """Return the gravity [m/s²] of the first scene of a stage that sets it.
 
-    A magnitude that is negative is that of the Earth, and no direction is down: the schema of
-    UsdPhysics says so.
+    By the schema of UsdPhysics, a negative magnitude is that of the Earth, and no direction is
+    down.
     """
     for prim in context.stage.Traverse():
         scene = UsdPhysics.Scene(prim)
