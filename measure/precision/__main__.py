@@ -63,8 +63,8 @@ takes the first verdict that holds:
 A copied model is judged as by its maker, and a file that no code loads as if it were loaded. An
 error that no named reader rejects, or loads as another robot, is marked `"error": false`.
 
-All samples below were judged before this scale was written: *useful* was what a maintainer would
-change or needs to know, and *noise* what is true and requires no action.
+All samples but the last were judged before this scale was written: *useful* was what a maintainer
+would change or needs to know, and *noise* what is true and requires no action.
 
 ## Samples
 
@@ -109,6 +109,11 @@ imports, or that are about markers. Seeds 92001 and 92002 ("grouped") were drawn
 of 17 packages that no earlier sample has and that gave 134 findings, by a seventh reader; the two
 samples share 23. Nine of the 16 wrong ones of both are true but for an effect: MuJoCo rejects a
 robot with `package://` URIs, whose remaining effects are stated as if these had been replaced.
+Seeds 100101 and 100102 ("by the scale") were drawn of 20 packages that no earlier sample has and
+that gave 433 findings, and judged by an eighth reader by the scale above; they share 11. Readers of
+47 of their 109 findings could also take another verdict, which the reason names. Infos were useful
+in 25 %, warnings in 47 %, errors in 76 %. Afterwards infos of some rules, and some rules that are
+infos, were put off by default, and findings of one cause in several files became one.
 """
 RULES = """\
 ## Rules with findings that were wrong

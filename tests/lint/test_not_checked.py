@@ -339,3 +339,18 @@ def test_a_folder_of_meshes_that_a_program_writes_is_said(tmp_path, urdftool):
         assert result.code == 2
         assert ("a template" in result.out) is (folder == "__MESHDIR__")
         assert "gripper.xml:1:" in result.out
+
+
+def test_one_reason_of_several_files_is_one_error(tmp_path, urdftool):
+    """The code that loads these parts sets the texture; MuJoCo rejects them as they are."""
+    pytest.importorskip("mujoco")
+    texture = '<asset><texture name="t" type="2d" file="{}.png"/></asset>'
+    body = '<worldbody><body><geom size="0.1"/></body></worldbody>'
+    for name, file in (("a", "wood"), ("b", "wood"), ("c", "stone")):
+        text = f"<mujoco>{texture.format(file)}{body}</mujoco>"
+        (tmp_path / f"{name}.xml").write_text(text)
+    result = urdftool("lint", tmp_path, "--format", "concise")
+    assert result.code == 2
+    assert "file 'wood.png' does not exist (and 1 more)" in result.out
+    assert "file 'stone.png' does not exist;" in result.out
+    assert "3 not checked" in result.err

@@ -105,10 +105,27 @@ def block(faces):
 def test_dense_visual_meshes_that_collide_are_one_finding_that_names_the_links(write):
     write("dense.stl", block(6000))
     path = write("r.urdf", meshes(5, "dense.stl"))
-    (finding,) = check(path, select=("visual-mesh-as-collision",))
+    (finding,) = check(path, select=("visual-mesh-as-collision",), targets=("moveit",))
     assert finding.severity.label == "warning"
     assert finding.name == "l0"
     assert "so do 'l1', 'l2', 'l3', 'l4'" in finding.message
+
+
+@pytest.mark.parametrize(
+    ("targets", "severity"),
+    [((), None), (("mujoco",), None), (("moveit",), "warning"), (("gz", "mujoco"), "warning")],
+)
+def test_dense_meshes_of_which_readers_take_the_hull_are_off(write, targets, severity):
+    write("dense.stl", block(6000))
+    robot = meshes(2, "dense.stl").replace("</robot>", JOINED)
+    found = check(write("r.urdf", robot), targets=targets)
+    names = [f.severity.label for f in found if f.code == "visual-mesh-as-collision"]
+    assert names == ([severity] if severity else [])
+
+
+JOINED = (
+    """<joint name="j" type="continuous"><parent link="l0"/><child link="l1"/></joint></robot>"""
+)
 
 
 def test_a_link_of_a_dense_mesh_is_not_named_again_for_another_mesh(write):
@@ -120,7 +137,7 @@ def test_a_link_of_a_dense_mesh_is_not_named_again_for_another_mesh(write):
         for name in ("dense", "plain")
     )
     path = write("r.urdf", f'<robot name="r"><link name="a">{both}</link></robot>')
-    (finding,) = check(path, select=("visual-mesh-as-collision",))
+    (finding,) = check(path, select=("visual-mesh-as-collision",), targets=("moveit",))
     assert finding.severity.label == "warning"
 
 
@@ -199,3 +216,20 @@ def test_a_visual_mesh_of_few_triangles_may_collide(write, faces, count):
     write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + "f 1 2 3\n" * faces)
     path = write("r.urdf", meshes(1, "part.obj"))
     assert len(check(path, select=("visual-mesh-as-collision",))) == count
+
+
+def test_files_of_one_folder_in_another_case_are_one_finding(tmp_path, urdftool):
+    (tmp_path / ".git").mkdir()
+    (tmp_path / "meshes").mkdir()
+    for name in ("a", "b"):
+        (tmp_path / "meshes" / f"{name}.stl").write_bytes(block(0))
+    shape = '<visual><geometry><mesh filename="meshes/{}"/></geometry></visual>'
+    for robot, files in (("one", ("a.STL", "b.STL")), ("two", ("a.STL", "b.stl"))):
+        visuals = "".join(map(shape.format, files))
+        text = f'<robot name="{robot}"><link name="l">{visuals}</link></robot>'
+        (tmp_path / f"{robot}.urdf").write_text(text)
+    result = urdftool("lint", tmp_path, "--select", "mesh-case-mismatch", "--format", "concise")
+    assert result.code == 1
+    assert result.out.count("[mesh-case-mismatch]") == 1
+    assert "3 URIs of meshes differ in case from the files in" in result.out
+    assert "first 'meshes/a.STL' from 'a.stl'" in result.out

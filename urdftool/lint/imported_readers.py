@@ -205,7 +205,7 @@ def is_for_other_readers(rule: Rule, finding: Finding, used: Use | None) -> bool
         return False
     if is_of_inertia and used.keeps_inertia:
         return False
-    if rule.of_motion or readers <= set(GAZEBO):
+    if rule.family == "inertia" or rule.of_motion or readers <= set(GAZEBO):
         return True
     return finding.severity is Severity.INFO and readers <= _SIMULATORS
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from ..diagnostic import Severity
 from ..errors import PackageNotFound, SourceError, UrdftoolError
-from ..finding import Finding
+from ..finding import Finding, Group
 from ..source.description import Description
 from ..source.document import Element
 from ..source.location import Place, SourceFile
@@ -95,7 +95,9 @@ def convert_error(
 ) -> Finding:
     """Return an error of reading a description as a finding.
 
-    If the robot was not checked at all, the finding is an error in any configuration.
+    If the robot was not checked at all, the finding is an error in any configuration. Descriptions
+    of a repository that are not checked for the same reason, such as a texture that none of them
+    finds, are one finding.
     """
     place = failure.at or Place(SourceFile(failure.path or "", b""), 0, 0)
     effects = {} if rule else _get_effects(failure.rule or "not-well-formed", failure)
@@ -110,6 +112,7 @@ def convert_error(
         effects=effects,
         hint="; ".join(failure.notes),
         unchecked=unchecked,
+        group=Group("repository", "", failure.message) if unchecked else None,
         data={"case": failure.case, **failure.data} if failure.case else failure.data,
     )
 

@@ -310,7 +310,11 @@ def _check_description(
                 if finding is None:
                     continue
                 if not settings.is_pedantic_on(rule.name):
-                    is_off = problem.pedantic or is_of_unmoved_robot(rule, finding, robot)
+                    is_off = (
+                        problem.pedantic
+                        or _is_info_off(rule, finding, settings)
+                        or is_of_unmoved_robot(rule, finding, robot)
+                    )
                     if not is_off and is_for_other_readers(rule, finding, used):
                         count = report.for_other_readers.get(rule.name, 0)
                         report.for_other_readers[rule.name] = count + 1
@@ -346,6 +350,12 @@ def _check_description(
     report.unread_meshes = {} if robot is None else collect_unread_meshes(robot)
     for memo in (description.memo, *([robot.memo] if robot is not None else ())):
         memo.clear()  # breaks a reference cycle with the robot
+
+
+def _is_info_off(rule: Rule, finding: Finding, settings: Settings) -> bool:
+    """Tell whether a finding is an info of a rule whose infos are off, and not so configured."""
+    is_info = finding.severity is Severity.INFO
+    return is_info and not rule.infos and settings.severity.get(rule.name) is None
 
 
 _TELLING = frozenset(tag for tags in APPLIES_TO.values() for tag in tags)

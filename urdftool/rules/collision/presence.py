@@ -67,10 +67,10 @@ def missing_collision(
     collision that only Drake or MuJoCo reads, such as a pendulum of which the motion is computed.
 
     If nothing shows that Gazebo, MuJoCo, PyBullet or MoveIt reads the robot, it is an info for
-    wheels and feet, for robots without any collision, and for links of the mass of the others where
-    most links have a collision. Others are off by default: fingers in the collision of a hand,
-    covers, and links of robots whose authors reduced the collisions. ``missing-inertial`` reports a
-    robot that has neither a collision nor an inertial.
+    wheels and feet, and for links of the mass of the others where most links have a collision.
+    Others are off by default: fingers in the collision of a hand, covers, stands that are fixed to
+    the world, and links of robots whose authors reduced the collisions or wrote none.
+    ``missing-inertial`` reports a robot that has neither a collision nor an inertial.
     """
     if len(robot.links) == 1 and not robot.links[0].mass:
         return  # a marker, such as a goal
@@ -95,13 +95,14 @@ def missing_collision(
             continue
         if sizes[link.name] < small or _is_enveloped(robot, link) or _is_between(robot, link):
             continue
+        is_held = is_fixed_to_world(robot, link)
         yield Problem(
             link,
             f"link '{link.name}' has a visual but no collision; "
             "add a <collision>, best with a primitive shape",
-            severity=INFO if is_fixed_to_world(robot, link) else None,
+            severity=INFO if is_held else None,
             effects=[_LOAD, "moveit", *["mujoco"] * discarded],
-            pedantic=not is_simulated and (is_bare or not _is_expected(robot, link)),
+            pedantic=not is_simulated and (is_bare or is_held or not _is_expected(robot, link)),
             group="{count} links have a visual but no collision: {names}; "
             "add a <collision> to each, best with a primitive shape",
         )
@@ -110,13 +111,14 @@ def missing_collision(
 def _is_expected(robot: Robot, link: Link) -> bool:
     """Tell whether the robot itself shows that a link should have a collision.
 
-    That is a wheel or foot, any link of a robot without collisions, and, where at least two thirds
-    of the links with a visual have a collision, a link of a fourth of their mean mass. The
-    fractions are chosen, without a source.
+    That is a wheel or foot, and, where at least two thirds of the links with a visual have a
+    collision, a link of a fourth of their mean mass. The fractions are chosen, without a source.
     """
     solid = [one for one in robot.links if one.collisions]
-    if not solid or _CONTACT.search(link.name):
+    if _CONTACT.search(link.name):
         return True
+    if not solid:
+        return False
     seen = [one for one in robot.links if one.visuals]
     is_rule = 3 * sum(bool(one.collisions) for one in seen) >= 2 * len(seen)
     return is_rule and link.mass >= fmean(one.mass for one in solid) / 4 > 0

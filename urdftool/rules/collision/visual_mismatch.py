@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Iterator
 
+from ...diagnostic import Severity
 from ...model.bounds import Bounds, compute_size
 from ...model.elements import Collision, Cylinder, Link, Mesh, Robot, Sphere, Visual
 from ...model.gltf_axes import is_gltf
+from ...model.pose import make_pose
 from ...source.description import Description
 from ..fix import FixContext, Proposal, depends_on_arguments, unsafe
 from ..mesh.link_extents import LinkExtents, get_extents
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses, is_concave
-from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
+from ..rule import (
+    ANY_FORMAT,
+    ERROR,
+    GAZEBO,
+    INFO,
+    ROS,
+    UNSAFE,
+    URDF_AND_SDF,
+    WARNING,
+    Problem,
+    rule,
+)
 from ..shape_changes import copy_origin, set_in_origin
 from ..words import join_some
 from .displaced import find_displaced
@@ -67,6 +81,9 @@ def _count_triangles(use: MeshUse) -> int:
 _DENSE = 5000
 """Triangles above which a mesh costs time in contacts. Chosen, no source."""
 
+_OF_TRIANGLES = frozenset(("moveit", *ROS, *GAZEBO))
+"""Targets that collide the triangles of a mesh; robots for ROS are planned with MoveIt."""
+
 _SHORTEST = 8
 """Bytes of ``f 1 2 3`` and a newline, by definition the shortest face of an OBJ file."""
 
@@ -80,9 +97,10 @@ _SHORTEST = 8
         "pybullet (concave)": "uses its triangles for contact, because the collision is concave",
     },
     pedantic="objects and scenes, which have no moving joint",
+    infos=False,
 )
 def visual_mesh_as_collision(
-    robot: Robot, description: Description, *, dense: float = _DENSE
+    robot: Robot, description: Description, targets: frozenset[str], *, dense: float = _DENSE
 ) -> Iterator[Problem]:
     """A link uses its visual mesh as collision geometry.
 
@@ -93,7 +111,9 @@ def visual_mesh_as_collision(
     Reported are STL and OBJ files of more than ``dense`` triangles, because lighter ones cost
     little. Files of another format are not counted. One finding names all links; a ``<collision>``
     with the attribute ``concave``, of which PyBullet keeps the triangles, is a finding of its own.
-    A mesh or description that is named for collisions is skipped.
+    A mesh or description that is named for collisions is skipped. It is an info, which is off by
+    default, unless a reader among the targets collides the triangles: MoveIt, Gazebo, and PyBullet
+    if the collision is concave; MuJoCo and PyBullet else take the convex hull.
     """
     if _FOR_CONTACT.search(os.path.basename(description.path)):
         return
@@ -113,11 +133,15 @@ def visual_mesh_as_collision(
             robot,
             [one for one in heavy if is_concave(one[0]) is concave],
             ("moveit", "mujoco", "pybullet (concave)" if concave else "pybullet"),
+            None if concave or not targets.isdisjoint(_OF_TRIANGLES) else INFO,
         )
 
 
 def _report_visual_meshes(
-    robot: Robot, heavy: list[tuple[MeshUse, int]], effects: tuple[str, ...]
+    robot: Robot,
+    heavy: list[tuple[MeshUse, int]],
+    effects: tuple[str, ...],
+    severity: Severity | None,
 ) -> Iterator[Problem]:
     """Report dense visual meshes used as collision geometry."""
     if heavy:
@@ -133,6 +157,7 @@ def _report_visual_meshes(
             at=heavy[0][0].mesh.locate_attribute("filename"),
             hint=_SIMPLER,
             effects=effects,
+            severity=severity,
             pedantic=not robot.moving_joints,
         )
 
@@ -193,7 +218,9 @@ def collision_much_larger_than_visual(
     long as that of the visuals, and by more than ``least`` [m]; visuals of links that are fixed to
     this one count too. Ignored are the disc that the blades of a rotor sweep, a sphere with the
     radius of a wheel, which makes contact with the ground in one point on purpose, and three or
-    more primitives, composed on purpose, such as a capsule for coarse checks.
+    more primitives, composed on purpose, such as a capsule for coarse checks. So are a sphere
+    around a flat body, such as a drone, and geometry that spans the visuals of the links that its
+    joints move, as a capsule for a whole thigh.
     """
     reach = get_extents(robot)
     for link in robot.links:
@@ -215,7 +242,10 @@ def collision_much_larger_than_visual(
         a, b = collision_box.size[axis], around.size[axis]
         if _is_swept(robot, link, collision_box, around) or _is_ball_of_wheel(link, around):
             continue
-        if _is_composed(link):
+        if _is_composed(link) or _is_ball_around(robot, link, around):
+            continue
+        moved = _join_moved_visuals(robot, reach, link, around)
+        if _is_inside(collision_box, moved, axis):
             continue
         yield Problem(
             link,
@@ -270,6 +300,48 @@ def _is_ball_of_wheel(link: Link, around: Bounds) -> bool:
         return False
     width = 2 * shapes[0].radius
     return sum(abs(size - width) <= 0.1 * width for size in around.size) >= 2
+
+
+_AROUND = 1.3
+"""A sphere around a body is at most so many times as wide as its diagonal. Chosen, no source."""
+
+
+def _is_ball_around(robot: Robot, link: Link, around: Bounds) -> bool:
+    """Tell whether the only collision is a sphere as wide as the diagonal of the longest sides.
+
+    Its center is that of the box, up to a fifth of its radius. Wheels have a rule of their own.
+    """
+    joint = robot.tree.get_parent_joint(link.name)
+    if joint is not None and joint.type in ("continuous", "revolute"):
+        return False
+    shapes = [collision.geometry for collision in link.collisions]
+    if len(shapes) != 1 or not isinstance(shapes[0], Sphere):
+        return False
+    radius = shapes[0].radius
+    center = make_pose(link.collisions[0].origin).translation
+    if math.dist(center, around.center) > 0.2 * radius:
+        return False
+    return 2 * radius <= _AROUND * math.hypot(*sorted(around.size)[1:])
+
+
+_BEYOND = 0.1
+"""Part of its length by which geometry may be longer than visuals. Chosen, no source."""
+
+
+def _is_inside(box: Bounds, around: Bounds, axis: int) -> bool:
+    """Tell whether a bounding box is inside of another one along an axis."""
+    slack = _BEYOND * box.size[axis]
+    return box.low[axis] >= around.low[axis] - slack and box.high[axis] <= around.high[axis] + slack
+
+
+def _join_moved_visuals(robot: Robot, reach: LinkExtents, link: Link, box: Bounds) -> Bounds:
+    """Join a bounding box with those of the visuals of the links that the joints of a link move."""
+    for joint in robot.tree.get_child_joints(link.name):
+        child = robot.link.get(joint.child)
+        if child is not None and child.visuals and not joint.is_fixed:
+            other = reach.get_body_box(link, "visuals", [(child, make_pose(joint.origin))])
+            box = box if other is None else box.join(other)
+    return box
 
 
 def _is_doubled(link: Link, collision_box: Bounds, visual_box: Bounds) -> bool:

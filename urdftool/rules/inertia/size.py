@@ -204,7 +204,7 @@ def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     of_motion=True,
     group="robot",
     formats=ANY_FORMAT,
-    pedantic="meshes that would have to be less than 2 times as long",
+    pedantic="meshes that would have to be less than 2 times as long, and identified values",
 )
 def inertia_exceeds_geometry(
     robot: Robot,
@@ -226,18 +226,19 @@ def inertia_exceeds_geometry(
     visual geometry, which may be markers. The geometry of attached links without a mass of their
     own counts too, and is named. ``urdftool inertia robot`` applies the same checks.
 
-    It is an info, too, if three or more links have such a tensor, with all six numbers and less
-    than 5 times too long: identification by measured torques gives values that are right together,
-    not for each link. A mesh that would have to be less than 2 times as long is off by default.
+    It is an info, and off by default, if two or more links have such a tensor, with all six numbers
+    and less than 5 times too long: identification by measured torques gives values that are right
+    together, not for each link. A mesh that would have to be less than 2 times as long is off by
+    default, too.
     """
     found = list(_find_large_inertias(robot, allowed, rounding, certain))
     if sum(_is_like_identified(problem) for problem in found) >= _IDENTIFIED:
         for problem in filter(_is_like_identified, found):
-            problem.severity = INFO
+            problem.severity, problem.pedantic = INFO, True
     yield from found
 
 
-_IDENTIFIED = 3
+_IDENTIFIED = 2
 """Number of links from which large tensors of a robot may be identified. Chosen, no source."""
 
 
@@ -261,10 +262,11 @@ def _find_large_inertias(
         if low + middle < high:
             continue  # physically inconsistent at any size
         pose = make_pose(inertial.origin)
+        tensor = rotate_tensor(six, pose.rotation)
         judge = partial(
             check_spread,
             mass=link.mass,
-            tensor=rotate_tensor(six, pose.rotation),
+            tensor=tensor,
             rough=has_mesh(link) or not link.collisions,
             allowed=allowed,
             certain=certain,
@@ -294,9 +296,14 @@ def _find_large_inertias(
                 caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
                 effects=_select_readers(six),
                 alike=(found.axis, min(len(attached), 3), kind),
-                data={"certain": found.certain, "times": found.amount, "is_full": all(six)},
+                data={"certain": found.certain, "times": found.amount, "is_full": _is_full(tensor)},
                 pedantic=not found.certain and SHORTEST <= found.amount < 2,
             )
+
+
+def _is_full(tensor: SymmetricTensor) -> bool:
+    """Tell whether no number of a tensor about the axes of the link is zero."""
+    return min(map(abs, tensor)) > _SINGULAR * max(map(abs, tensor))
 
 
 def _select_readers(six: SymmetricTensor) -> list[str]:
@@ -333,7 +340,10 @@ def write_inertia_that_fits(problem: Problem, context: FixContext) -> Proposal |
         "pinocchio": "takes it as written",
     },
     of_motion=True,
-    caused_by=(*SIZE_IN_DOUBT, "implausible-density", "implausible-mass"),
+    caused_by=(
+        *(*SIZE_IN_DOUBT, "implausible-density", "implausible-mass"),
+        *("inertia-triangle-inequality", "singular-inertia"),
+    ),
     formats=ANY_FORMAT,
 )
 def inertia_below_geometry(

@@ -258,13 +258,15 @@ def _walk_files(workspace: Workspace, folder: str) -> Iterator[tuple[str, str]]:
         ),
         "mujoco": "rejects the robot on Linux",
     },
+    group="repository",
     formats=URDF_AND_SDF,
 )
 def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Problem]:
     """The name of a mesh file differs in case from the file on disk.
 
     ``Base.STL`` and ``base.stl`` are one file on macOS and Windows, but two files on Linux, which
-    robots and build servers use. There the file is not found.
+    robots and build servers use. There the file is not found. All files of one folder in a
+    repository are one finding.
     """
     seen: set[str] = set()
     lost = {use.uri for use in find_lost_in_mujoco(robot, description)}
@@ -283,6 +285,10 @@ def mesh_case_mismatch(robot: Robot, description: Description) -> Iterator[Probl
                 at=use.mesh.locate_attribute("filename"),
                 data={"uri": use.uri, "name": shown},
                 effects=["pybullet, drake", *["mujoco"] * (use.uri in lost)],
+                alike=str(actual.parent),
+                group="{count} URIs of meshes differ in case from the files in "
+                f"'{shorten_path(actual.parent)}', first '{use.uri}' from '{shown}', so Linux does "
+                "not find them; match the case, or rename the files",
             )
 
 

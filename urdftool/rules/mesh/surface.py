@@ -98,6 +98,7 @@ def _combine_findings(
     effects={
         "mujoco": "computes mass, center and inertia of the link from it, changed by the hole",
     },
+    default=False,
 )
 def not_watertight(
     robot: Robot, description: Description, *, change: float = 0.05
@@ -243,6 +244,7 @@ def remove_collapsed_triangles(problem: Problem, context: FixContext) -> Proposa
         "pybullet (concave)": "uses its triangles for contact, because the collision is concave",
     },
     group="robot",
+    default=False,
 )
 def nonconvex_collision_mesh(
     robot: Robot, description: Description, targets: frozenset[str], *, ratio: float = 1.5

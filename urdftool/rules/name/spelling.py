@@ -154,6 +154,7 @@ def write_snake_case(problem: Problem, context: FixContext) -> Proposal | None:
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, drake": "accept it",
     },
     formats=ANY_FORMAT,
+    default=False,
 )
 def non_ascii_name(robot: Robot) -> Iterator[Problem]:
     """A name has non-ASCII characters.

@@ -118,6 +118,7 @@ _RARE = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
         ),
     },
     group="repository",
+    infos=False,
 )
 def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]:
     """An element is not in URDF at this place.
@@ -235,6 +236,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     effects=_ATTRIBUTE_EFFECTS,
     group="robot",
     pedantic="additional parameters of a <dynamics> that has damping and friction",
+    infos=False,
 )
 def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     """An attribute is not in URDF for this element.
