@@ -23,7 +23,7 @@ from .commands.grouped_help import CommandGroup
 from .console import Console
 from .control_characters import escape_controls
 from .errors import UrdftoolError
-from .extras import find_missing_library, make_missing_error
+from .extras import find_missing_library, is_own_module, make_missing_error
 from .terminal import install, open_streams
 
 COMMANDS = (
@@ -217,6 +217,12 @@ def report_failures(console: Console, action: Callable[[], Any], words: Sequence
         if library is not None:
             console.print_error(
                 make_missing_error(library, f"'urdftool {' '.join(_find_command(words))}'")
+            )
+            return 2
+        if isinstance(error, ModuleNotFoundError) and not is_own_module(error):
+            console.print_message(
+                f"urdftool requires the Python module '{error.name}', which is not installed: "
+                "pip install urdftool"
             )
             return 2
         console.print_message(

@@ -77,3 +77,8 @@ def find_missing_library(error: BaseException) -> str | None:
     name = error.name if isinstance(error, ModuleNotFoundError) else None
     library = (name or "").partition(".")[0]
     return library if library in EXTRA_OF else None
+
+
+def is_own_module(error: ModuleNotFoundError) -> bool:
+    """Tell whether the module that is not found is one of urdftool, or has no name."""
+    return (error.name or __package__).partition(".")[0] == __package__

@@ -60,6 +60,18 @@ def test_a_bug_is_a_message_and_exit_code_3(urdftool, monkeypatch):
         urdftool("--debug", "lint", "x")
 
 
+@pytest.mark.parametrize(("name", "code"), [("xacro", 2), ("urdftool.absent", 3)])
+def test_a_library_of_the_core_that_is_absent_is_no_bug(urdftool, monkeypatch, name, code):
+    def fail(**_):
+        raise ModuleNotFoundError(f"No module named '{name}'", name=name)
+
+    monkeypatch.setattr(cli.main, "callback", fail)
+    result = urdftool("lint", "x")
+    assert result.code == code
+    assert ("requires the Python module 'xacro'" in result.err) == (code == 2)
+    assert ("bug in urdftool" in result.err) == (code == 3)
+
+
 def test_ctrl_c_is_exit_code_130():
     import fcntl
     import struct
