@@ -82,9 +82,12 @@ def _find_above(workspace: Workspace, folder: str) -> Configuration:
 
 
 def _parse(workspace: Workspace, path: Path, *, required: bool) -> Configuration | None:
-    outside = "" if required else explain_link_out(path, workspace.restrict(None))
-    if outside:
-        raise ConfigError(f"is not read: it {outside} with --config", path=path)
+    if not required:
+        if not workspace.exists(path):
+            return None
+        outside = explain_link_out(path, workspace.restrict(None))
+        if outside:
+            raise ConfigError(f"is not read: it {outside} with --config", path=path)
     try:
         with workspace.open(path) as stream:
             data = stream.read(_MOST_BYTES + 1)

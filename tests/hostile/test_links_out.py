@@ -143,6 +143,19 @@ def test_a_configuration_that_is_a_link_out_is_not_quoted(name, command, place, 
     assert "--config" in done.err
 
 
+def test_a_folder_that_is_a_link_out_has_no_configuration(place, urdftool):
+    """A folder of robots in a workspace is often a link; what is not there is not refused."""
+    robots = place.parent / "outside" / "robots"
+    robots.mkdir()
+    (place / "r.urdf").rename(robots / "r.urdf")
+    (place / "robots").symlink_to("../outside/robots")
+    assert urdftool("info", "robots/r.urdf").code == 0
+    (robots / "urdftool.toml").write_text("[lint]\n")
+    done = urdftool("info", "robots/r.urdf")
+    assert done.code == 2
+    assert "--config" in done.err
+
+
 @pytest.mark.parametrize("suffix", [".urdf", ".xacro", ".sdf", ".xml", ".usda"])
 @pytest.mark.parametrize("command", ["lint", "info", "verify", "expand"])
 def test_a_description_that_is_a_link_out_of_the_repository(suffix, command, place, urdftool):
