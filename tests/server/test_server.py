@@ -209,6 +209,21 @@ def test_formatting_is_that_of_fmt(client, macro):
     )
 
 
+def test_a_document_that_is_open_through_a_link_too(client, macro, folder):
+    alias = folder / "alias.xacro"
+    alias.symlink_to(macro.name)
+    client.open(alias)
+    client.wait_for(alias, "axis-not-unit")
+    client.notify("textDocument/didClose", textDocument={"uri": alias.as_uri()})
+    client.wait_until(lambda: not client.diagnostics[alias.as_uri()])
+    client.change(macro, text=MACRO.replace("0 1 1", "0 1 0"))
+    client.settle(macro)
+    assert not client.list_found(macro, "axis-not-unit")
+    client.change(macro, text=MACRO)
+    client.wait_for(macro, "axis-not-unit")
+    alias.unlink()
+
+
 @pytest.mark.parametrize("position", [place(10**6, 3), place(0, 10**6), place(3, 10**6)])
 def test_positions_beyond_the_end(client, macro, position):
     document = {"uri": macro.as_uri()}

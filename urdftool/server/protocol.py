@@ -78,7 +78,7 @@ class RobotServer(LanguageServer):
         self.publication = Publication()
         self.converter = converters.get_converter()
         self._texts: dict[str, str] = {}
-        self._uris: dict[str, str] = {}
+        self._uris: dict[str, list[str]] = {}  # of a path, the one opened last at the end
         self._robots: dict[str, list[str]] = {}
         self._changed: set[str] = set()
         self._check: asyncio.Task[None] | None = None
@@ -100,7 +100,11 @@ class RobotServer(LanguageServer):
 
     def make_uri(self, path: str) -> str:
         """Return the address of a file as the editor writes it."""
-        return self._uris.get(path) or uris.from_fs_path(path) or path
+        return self._list_uris(path)[-1]
+
+    def _list_uris(self, path: str) -> list[str]:
+        """Return the addresses of a file: of a document that is open through a link, several."""
+        return self._uris.get(path) or [uris.from_fs_path(path) or path]
 
     def find_path(self, uri: str) -> str | None:
         """Return the resolved path of an address; None for one that is not a file."""
@@ -126,7 +130,8 @@ class RobotServer(LanguageServer):
         """Check a document that was opened."""
         path = self.find_path(uri)
         if path is not None:
-            self._uris[path] = uri
+            known = self._uris.setdefault(path, [])
+            known[:] = [*(one for one in known if one != uri), uri]
             self._set_text(path, text)
 
     def change_document(
@@ -154,6 +159,12 @@ class RobotServer(LanguageServer):
         """Forget a document; robots without an open document have no diagnostics."""
         path = self.find_path(uri)
         if path is None:
+            return
+        rest = [one for one in self._uris.get(path, ()) if one != uri]
+        if rest:  # open through a link, too
+            self._uris[path] = rest
+            self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
+            self._set_text(path, self.workspace.get_text_document(rest[-1]).source)
             return
         self._texts.pop(path, None)
         self._robots.pop(path, None)
@@ -221,15 +232,16 @@ class RobotServer(LanguageServer):
 
     def _publish(self, paths: Iterable[str]) -> None:
         for path in paths:
-            self.text_document_publish_diagnostics(
-                lsp.PublishDiagnosticsParams(
-                    self.make_uri(path), self.list_diagnostics(path), self._get_version(path)
+            for uri in self._list_uris(path):
+                self.text_document_publish_diagnostics(
+                    lsp.PublishDiagnosticsParams(
+                        uri, self.list_diagnostics(path), self._get_version(path, uri)
+                    )
                 )
-            )
 
-    def _get_version(self, path: str) -> int | None:
-        uri = self._uris.get(path)
-        return self.workspace.get_text_document(uri).version if uri else None
+    def _get_version(self, path: str, uri: str) -> int | None:
+        is_open = uri in self._uris.get(path, ())
+        return self.workspace.get_text_document(uri).version if is_open else None
 
     def list_diagnostics(self, path: str) -> list[lsp.Diagnostic]:
         """Return the diagnostics of a file that are known now."""
@@ -264,7 +276,7 @@ class RobotServer(LanguageServer):
         changes = [
             lsp.TextDocumentEdit(
                 lsp.OptionalVersionedTextDocumentIdentifier(
-                    self.make_uri(path), self._get_version(path)
+                    self.make_uri(path), self._get_version(path, self.make_uri(path))
                 ),
                 some,
             )
