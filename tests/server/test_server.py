@@ -104,7 +104,7 @@ def test_actions_offer_the_fix_and_a_comment(client, macro):
     assert fix["title"].endswith("(unsafe)")
     assert not fix.get("isPreferred")
     (edit,) = fix["edit"]["changes"][macro.as_uri()]
-    assert edit["newText"] == "0 0.70710678118654746 0.70710678118654746"
+    assert edit["newText"] == "0 0.707106781 0.707106781"
     assert edit["range"] == {"start": place(8, 17), "end": place(8, 22)}
     (edit,) = comment["edit"]["changes"][macro.as_uri()]
     assert edit["newText"] == "<!-- urdftool-ignore[axis-not-unit] -->\n      "
