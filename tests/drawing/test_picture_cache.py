@@ -1,10 +1,9 @@
 """Pictures on disk: the same one is drawn once."""
 
-import time
-
 import numpy as np
 import pytest
 
+from urdftool.drawing import picture_cache
 from urdftool.drawing.picture_cache import draw_or_read, read_size
 from urdftool.drawing.shapes import make_bare_shapes
 
@@ -12,13 +11,13 @@ SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]]), np.array([[0,
 
 
 @pytest.fixture
-def drawn():
-    """A counter of pictures drawn slowly, and the function that draws them."""
+def drawn(monkeypatch):
+    """A counter of pictures that are drawn slowly enough to be kept, and what draws them."""
+    monkeypatch.setattr(picture_cache, "_SLOW", 0.0)
     calls = []
 
     def draw():
         calls.append(1)
-        time.sleep(0.35)
         return np.full((6, 9, 3), len(calls), np.uint8)
 
     return calls, draw
@@ -44,8 +43,9 @@ def test_another_pose_or_color_is_another_picture(drawn):
     assert len(calls) == 3
 
 
-def test_a_picture_that_is_fast_to_draw_is_not_kept(drawn):
-    calls, _ = drawn
+def test_a_picture_that_is_fast_to_draw_is_not_kept(monkeypatch):
+    monkeypatch.setattr(picture_cache, "_SLOW", 60.0)
+    calls = []
     for _ in range(2):
         draw_or_read(square(), [], lambda: calls.append(1) or np.zeros((2, 2, 3), np.uint8))
     assert len(calls) == 2

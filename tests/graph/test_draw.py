@@ -93,7 +93,7 @@ def test_what_takes_too_long_is_stopped(monkeypatch):
     begin = time.monotonic()
     with pytest.raises(DrawError, match=r"edges in 0.05 s; .*--fold-fixed"):
         draw(text, "svg")
-    assert time.monotonic() - begin < 2
+    assert time.monotonic() - begin < 30  # without the limit: minutes
 
 
 def test_a_graphviz_that_crashes_is_one_message(tmp_path, monkeypatch):

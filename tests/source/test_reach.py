@@ -134,7 +134,7 @@ def test_no_expression_takes_all_time_or_memory(evaluate, text):
     with pytest.raises(UrdftoolError) as caught:
         evaluate(text)
     assert caught.value.line == 1
-    assert time.monotonic() - start < 5  # without the bounds: minutes, or until memory is gone
+    assert time.monotonic() - start < 40  # without the bounds: minutes, or until memory is gone
 
 
 @pytest.mark.parametrize(
