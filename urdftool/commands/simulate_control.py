@@ -85,6 +85,11 @@ def report_replaced(console: Console, robot: Robot) -> None:
         elif elements:
             names.append(format_count(len(elements), f"<{section}> element"))
     names += _list_contact_filters(robot)
+    names += [
+        f"no contact of '{one}' and '{other}'"
+        for one, other in ((pair.link, pair.other) for pair in robot.exclusions)
+        if not {one, other} <= robot.link.keys()
+    ]
     if names:
         console.print_note(
             f"{robot.place}: note: the simulation has its own gravity, solver, motors and ground; "

@@ -11,6 +11,7 @@ from ...model.appearance import APPEARANCE, find_unknown_script
 from ...model.blocks import list_unread_elements
 from ...model.elements import BALL_TYPES, Link, Material, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
+from ...model.mechanism import ContactExclusion
 from ...model.native import LOOP, OTHER_TAGS
 from ...model.part import Part
 from ...model.read_settings import list_settings
@@ -177,6 +178,18 @@ def _report_element(
 
 _EXPRESSED_TAGS = LUMPING_TAGS | {"static"}
 """Tags of settings that are in the structure of the robot: which joints are kept, and its base."""
+
+
+def list_link_exclusions(robot: Robot, written: Written) -> Iterator[ContactExclusion]:
+    """Yield the contact exclusions of two links, and report those with the world's scenery."""
+    for pair in robot.exclusions:
+        if {pair.link, pair.other} <= robot.link.keys():
+            yield pair
+            continue
+        text = f"the excluded contact of '{pair.link}' and '{pair.other}', of which one is no link"
+        text += ", is dropped"
+        name = pair.link if pair.link in robot.link else pair.other
+        written.report_loss("exclusion", text, pair.place, kind="link", name=name)
 
 
 def _report_appearance(robot: Robot, written: Written) -> None:

@@ -42,8 +42,10 @@ def build_contact_section(
         return None
     section = etree.Element("contact")
     for pair in structure.robot.exclusions:
-        names = (structure.get_body_name(link) for link in (pair.link, pair.other))
-        body1, body2 = names
+        body1, body2 = (
+            structure.get_body_name(name) if name in structure.robot.link else name
+            for name in (pair.link, pair.other)
+        )
         if proof := proofs.get(frozenset((pair.link, pair.other))):
             section.append(etree.Comment(f" {proof} "))
         etree.SubElement(section, "exclude", body1=body1, body2=body2)

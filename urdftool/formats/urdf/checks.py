@@ -112,7 +112,7 @@ def check_srdf(
     for pair in robot.exclusions:
         both = frozenset(names.get(("link", name), name) for name in (pair.link, pair.other))
         item = f"contact of '{pair.link}' and '{pair.other}'"
-        known = declared.has_for(("lossy-exclusion",), pair.link)
+        known = declared.has_for(("lossy-exclusion",), pair.link, pair.other)
         check.compare(0.0 if both in disabled else math.inf, item, known=known)
     for configuration in robot.configurations:
         state = read.states.get(configuration.name, {})

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES
 from ...model.numbers import number_text
+from ..common.unexpressed import list_link_exclusions
 from .translation import Translation, add
 
 _GROUP = "robot"
@@ -89,18 +89,8 @@ def _list_pairs(t: Translation) -> Iterator[tuple[str, str, str]]:
     """
     robot = t.robot
     named = {frozenset((pair.link, pair.other)) for pair in robot.exclusions}
-    for pair in robot.exclusions:
-        if pair.link in robot.link and pair.other in robot.link:
-            yield pair.link, pair.other, "User"
-        else:
-            t.written.report_loss(
-                "exclusion",
-                f"an excluded contact is dropped: '{pair.link}' or '{pair.other}' is not a link",
-                pair.place,
-                kind="link",
-                name=pair.link,
-                severity=Severity.INFO,
-            )
+    for pair in list_link_exclusions(robot, t.written):
+        yield pair.link, pair.other, "User"
     if robot.format != "mjcf":
         return
     above = {joint.child: joint.parent for joint in robot.joints}

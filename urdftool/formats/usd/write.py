@@ -12,6 +12,7 @@ from ...model.elements import Joint, Robot
 from ...model.kinematics import follow_mimic_chain
 from ..common.naming import replace_file_name, shorten_file_name
 from ..common.srdf import read_srdf
+from ..common.unexpressed import list_link_exclusions
 from ..defects import FATAL, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
 from .bodies import Bodies, make_bodies, report_floating
@@ -86,7 +87,8 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     servos = plan_servos(bodies, home, options, settings, written)
     values = choose_joint_values(bodies, settings, servos, written)
     overlaps = list_overlaps(robot, options, home.positions, written)
-    exclusions = [(pair.link, pair.other) for pair in (*robot.exclusions, *overlaps)]
+    given = [*list_link_exclusions(robot, written), *overlaps]
+    exclusions = [(pair.link, pair.other) for pair in given]
     pairs = [*exclusions, *(srdf.disabled if srdf else ())]
     planned = make_planned(bodies, values, home.positions, pairs)
     joints = JointWriter(builder, bodies, names, options, values, home.positions, written)
