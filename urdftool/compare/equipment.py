@@ -9,9 +9,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..mechanics.reference import Array, get_origin_matrix
-from ..model.elements import Robot
+from ..model.elements import Link, Robot
 from ..model.mechanism import Closure
-from ..model.settings import JOINT_TAGS, LINK_TAGS
+from ..model.settings import JOINT_TAGS, LINK_TAGS, SURFACE
 from .bodies import Bodies
 from .difference import EXISTENCE, RENAMED, Comparison, Difference
 from .extensions import compare_extensions, list_block_tags, list_tags
@@ -33,11 +33,14 @@ _TOLERANCE = 1e-6
 
 _WHY = {BLOCKS: "only URDF has such blocks"}
 
-_READ = LINK_TAGS | JOINT_TAGS | {"sensor", "contact"}
+_READ = LINK_TAGS | JOINT_TAGS | {"sensor"}
 """Elements in blocks whose values are compared in rows of their own."""
 
-_READ_IN_GAZEBO = _READ | {"joint"}
+_READ_IN_GAZEBO = _READ | {"joint", "contact"}
 """Those in ``<gazebo>``, where a ``<joint>`` closes a loop."""
+
+_READ_IN_CONTACT = frozenset(row.contact for row in SURFACE if row.contact)
+"""Elements in Bullet's ``<contact>`` of a link that apply to each of its collisions."""
 
 
 def compare_equipment(pair: Pair, comparison: Comparison) -> None:
@@ -125,8 +128,15 @@ def _list_differences(pair: Pair) -> Iterator[Difference]:
             tags = list_tags(a if one else b, difference, renamed if one else {})
             if not tags or tags - read:
                 yield difference
-        elif re.split(r"[/ \[(]", difference.what)[0] not in read:
+        elif not _is_read(re.split(r"[/ \[(]", difference.what), read, a.link.get(difference.name)):
             yield difference
+
+
+def _is_read(path: list[str], read: frozenset[str], link: Link | None) -> bool:
+    """Tell whether a row of its own compares what is at a path of a block, link or joint."""
+    if link is not None and path[0] == "contact" and path[1:]:
+        return bool(link.collisions) and path[1] in _READ_IN_CONTACT
+    return path[0] in read
 
 
 _SAME = {"ball": "connect", "fixed": "weld"}

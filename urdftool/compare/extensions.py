@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
 
 from ..model.elements import Robot
 from ..model.mechanism import NativeElement
 from ..model.read import number
+from ..model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 from ..source.document import Element
 from .difference import Difference, describe_change, describe_presence
 from .rows import BLOCKS as ROW
@@ -18,17 +21,52 @@ BLOCKS = ("transmission", "gazebo", "ros2_control")
 """Tags of the blocks."""
 _NAMING = ("name", "reference", "filename", "type")
 
+
+class _Compared(NamedTuple):
+    """What of an element of URDF is compared by its values."""
+
+    children: frozenset[str] = frozenset()
+    attributes: frozenset[str] = frozenset()
+
+
+def _make_compared(children: str, attributes: Iterable[str] = ()) -> _Compared:
+    return _Compared(frozenset(children.split()), frozenset(attributes))
+
+
 _COMPARED = {
-    "robot": frozenset(("link", "joint", "material")),
-    "link": frozenset(("inertial", "visual", "collision")),
-    "joint": frozenset(
-        (
-            *("parent", "child", "origin", "axis", "limit", "dynamics", "mimic"),
-            *("safety_controller", "calibration"),
-        )
+    "robot": _make_compared("link joint material"),
+    "link": _make_compared("inertial visual collision", ("name",)),
+    "inertial": _make_compared("origin mass inertia"),
+    "mass": _make_compared("", ("value",)),
+    "inertia": _make_compared("", ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
+    "visual": _make_compared("origin geometry material", ("name",)),
+    "collision": _make_compared("origin geometry", ("name",)),
+    "origin": _make_compared("", ("xyz", "rpy", "quat_xyzw")),
+    "geometry": _make_compared("box cylinder sphere capsule mesh"),
+    "box": _make_compared("", ("size",)),
+    "cylinder": _make_compared("", ("radius", "length")),
+    "sphere": _make_compared("", ("radius",)),
+    "capsule": _make_compared("", ("radius", "length")),
+    "mesh": _make_compared("", ("filename", "scale")),
+    "material": _make_compared("color texture", ("name",)),
+    "color": _make_compared("", ("rgba",)),
+    "texture": _make_compared("", ("filename",)),
+    "joint": _make_compared(
+        "parent child origin axis limit dynamics mimic safety_controller calibration",
+        ("name", "type"),
     ),
+    "parent": _make_compared("", ("link",)),
+    "child": _make_compared("", ("link",)),
+    "axis": _make_compared("", ("xyz",)),
+    "limit": _make_compared("", LIMIT_NAMES),
+    "dynamics": _make_compared("", RESISTANCE_OF_URDF),
+    "mimic": _make_compared("", ("joint", "multiplier", "offset")),
+    "safety_controller": _make_compared(
+        "", ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
+    ),
+    "calibration": _make_compared("", ("rising", "falling", "reference_position")),
 }
-"""Elements of URDF that are compared by their values, by the element that they are in."""
+"""Elements of URDF that are compared by their values; all else is compared as it is written."""
 
 
 def compare_extensions(
@@ -50,7 +88,9 @@ def list_block_tags(*robots: Robot) -> list[str]:
     """Return the tags of blocks, then of what else is in a URDF next to links and joints."""
     roots = [robot.xml for robot in robots if robot.xml is not None]
     others = (child.tag for root in roots for child in root.children)
-    return [tag for tag in dict.fromkeys((*BLOCKS, *others)) if tag not in _COMPARED["robot"]]
+    return [
+        tag for tag in dict.fromkeys((*BLOCKS, *others)) if tag not in _COMPARED["robot"].children
+    ]
 
 
 def _flatten_others(robot: Robot, renamed: Mapping[str, str], kind: str) -> dict[str, Flat]:
@@ -59,10 +99,23 @@ def _flatten_others(robot: Robot, renamed: Mapping[str, str], kind: str) -> dict
     for element in () if robot.xml is None else robot.xml.list_children(kind):
         name = element.get("name") or ""
         flat = found.setdefault(renamed.get(name, name), {})
-        for child in element.children:
-            if child.tag not in _COMPARED[kind]:
-                _flatten(child, "", flat, renamed)
+        _flatten_rest(element, "", flat, renamed)
     return found
+
+
+def _flatten_rest(element: Element, above: str, found: Flat, renamed: Mapping[str, str]) -> None:
+    """Add the attributes and elements in an element that are not compared by their values."""
+    compared, counts = _COMPARED[element.tag], Counter[str]()
+    for name, value in element.attributes.items():
+        if name not in compared.attributes and not name.startswith("xmlns"):
+            found[f"{above}@{name}"] = " ".join(value.split()), element
+    for child in element.children:
+        if child.tag not in compared.children:
+            _flatten(child, above, found, renamed)
+            continue
+        counts[child.tag] += 1
+        number = f"({counts[child.tag]})" if counts[child.tag] > 1 else ""
+        _flatten_rest(child, f"{above}{child.tag}{number}/", found, renamed)
 
 
 def _collect_blocks(robot: Robot, tag: str, renamed: Mapping[str, str]) -> dict[str, list[Element]]:
