@@ -401,3 +401,41 @@ def test_other_formats_are_converted_first(write):
 def test_the_input_is_not_overwritten(plain):
     with pytest.raises(urdftool.UrdftoolError, match="is an input"):
         plain.change_root("tip").write(Path(plain.source.path))
+
+
+FOLLOWER = """<robot name="r"><link name="base"/>{links}
+<ros2_control name="c" type="system"><joint name="j3"><param name="mimic">j1</param>{}</joint>
+</ros2_control>
+<transmission name="t"><joint name="j1"><offset>0.3</offset></joint></transmission></robot>"""
+LINKS = "".join(
+    f'<link name="l{i}"/><joint name="j{i}" type="revolute"><parent link="base"/>'
+    f'<child link="l{i}"/><limit lower="-1" upper="1" effort="1" velocity="1"/>{{}}</joint>'
+    for i in (1, 3)
+).format("", '<mimic joint="j1" multiplier="2"/>')
+
+
+@pytest.mark.parametrize(
+    ("written", "wanted"),
+    [
+        ('<param name="multiplier">2</param>', '<param name="multiplier">-2</param>'),
+        ("", '<param name="multiplier">-1</param>'),
+    ],
+)
+def test_a_follower_in_ros2_control_has_the_sign_of_its_mimic(urdftool, tmp_path, written, wanted):
+    source = tmp_path / "r.urdf"
+    source.write_text(FOLLOWER.format(written, links=LINKS))
+    result = urdftool("edit", "sign", source, "j1", "-o", tmp_path / "out.urdf")
+    assert result.code == 0, result.err
+    text = (tmp_path / "out.urdf").read_text()
+    assert wanted in text
+    assert 'multiplier="-2"' in text
+    assert "<offset> of joint 'j1' in a <transmission> is not changed" in result.err
+    assert "it is -0.3, with the opposite <mechanicalReduction>" in result.err
+
+
+def test_a_follower_in_ros2_control_that_needs_an_offset_is_named(urdftool, tmp_path):
+    source = tmp_path / "r.urdf"
+    source.write_text(FOLLOWER.format('<param name="multiplier">2</param>', links=LINKS))
+    result = urdftool("edit", "zero", source, "j1=0.25", "-o", tmp_path / "out.urdf")
+    assert result.code == 0, result.err
+    assert "follows 'j1' in <ros2_control> without the offset 0.5" in result.err

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from copy import copy
 from dataclasses import replace
@@ -25,18 +26,35 @@ def _shift_block(block: Element, known: Mapping[str, JointValue]) -> Element:
     if block.tag != "ros2_control":
         return block
     made = copy(block)
-    made.children = [
-        _shift_joint(e, known[e.get("name") or ""])
-        if e.tag == "joint" and e.get("name") in known
-        else e
-        for e in block.children
-    ]
+    made.children = [_shift_joint(e, known) if e.tag == "joint" else e for e in block.children]
     return made
 
 
-def _shift_joint(joint: Element, value: JointValue) -> Element:
-    made = copy(joint)
-    made.children = [_shift_interface(interface, value) for interface in joint.children]
+def _shift_joint(joint: Element, known: Mapping[str, JointValue]) -> Element:
+    value, made = known.get(joint.get("name") or ""), copy(joint)
+    if value is not None:
+        made.children = [_shift_interface(interface, value) for interface in joint.children]
+    params = {e.get("name"): e for e in joint.list_children("param")}
+    if "mimic" in params:
+        leader = known.get(params["mimic"].text.strip())
+        sign = math.prod(one.sign for one in (value, leader) if one is not None)
+        if sign < 0:
+            made.children = _negate_multiplier(made.children, params["mimic"])
+    return made
+
+
+def _negate_multiplier(children: list[Element], mimic: Element) -> list[Element]:
+    """Return the elements of a follower with the opposite multiplier, which is 1 by default."""
+    made = [copy(child) for child in children]
+    written = [e for e in made if e.tag == "param" and e.get("name") == "multiplier"]
+    if not written:
+        written = [copy(mimic)]
+        written[0].attributes = {"name": "multiplier"}
+        written[0].text = "1"
+        made += written
+    for element in written:
+        if (factor := number(element.text.strip())) is not None:
+            element.text = repr(-factor)
     return made
 
 

@@ -48,6 +48,11 @@ def change_positions(draft: Draft, changes: Mapping[str, Change]) -> None:
             shift = changes.get(element.get("name") or "")
             if shift is not None:
                 _change_interfaces(draft, element, shift)
+            _change_follower(draft, element, changes)
+    for block in draft.root.list_children("transmission"):
+        for element in block.list_children("joint"):
+            if (element.get("name") or "") in changes:
+                _report_offset(draft, element, changes[element.get("name") or ""])
     shift_files(draft, changes)
     for name in changes:
         report_text(draft, name, "positions in it are not shifted", has_positions=True)
@@ -138,6 +143,47 @@ def _change_mimic(draft: Draft, joint: Joint, changes: Mapping[str, Change]) -> 
     ):
         if format_number(old) != format_number(new):
             draft.set(mimic.element, name, format_number(new))
+
+
+def _change_follower(draft: Draft, joint: Element, changes: Mapping[str, Change]) -> None:
+    """Write the multiplier of a follower in ``<ros2_control>``, where an offset has no place."""
+    params = {e.get("name"): e for e in joint.list_children("param")}
+    leading = params.get("mimic")
+    name = joint.get("name") or ""
+    leader = changes.get("" if leading is None else leading.text.strip(), SAME)
+    own, written = changes.get(name, SAME), params.get("multiplier")
+    factor = 1.0 if written is None else number(written.text.strip())
+    if leading is None or factor is None or (own is SAME and leader is SAME):
+        return
+    new = own.sign * factor * leader.sign
+    if new != factor:
+        text = format_number(new)
+        if written is None:
+            draft.append(joint, [f'<param name="multiplier">{text}</param>'])
+        else:
+            draft.set_text(written, text)
+    if offset := own.zero - new * leader.zero:
+        draft.report(
+            "offset",
+            f"joint '{name}' follows '{leading.text.strip()}' in <ros2_control> without the offset "
+            f"{format_number(offset)} that the new zero requires; <mimic> of the joint has it",
+            leading.place,
+            kind="joint",
+            name=name,
+        )
+
+
+def _report_offset(draft: Draft, joint: Element, change: Change) -> None:
+    """Report the offset of a transmission, whose motor may have another direction, too."""
+    offset = joint.find_child("offset")
+    new = None if offset is None else change.format(offset.text.strip())
+    if offset is not None and new is not None and new != offset.text.strip():
+        name = joint.get("name") or ""
+        text = f"<offset> of joint '{name}' in a <transmission> is not changed; in the new "
+        text += f"positions it is {new}"
+        if change.sign < 0:
+            text += ", with the opposite <mechanicalReduction>"
+        draft.report("offset", text, offset.place, kind="joint", name=name)
 
 
 def _change_interfaces(draft: Draft, joint: Element, change: Change) -> None:

@@ -69,7 +69,7 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
         named = misplaced[0] if misplaced else contact.one
         yield Fault(
             "interpenetration",
-            Severity.ERROR if fails else Severity.INFO,
+            _rate(fails, joined),
             f"links '{contact.one}' and '{contact.other}' interpenetrate by {depth:.3g} m {when}",
             (robot.link[named].collisions[0] if misplaced else robot.link[named]).place,
             "link",
@@ -83,6 +83,13 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
             or "their collision geometry is too large or misplaced, or this pose is in collision",
             "collision-off-visual" if fails else "",
         )
+
+
+def _rate(fails: bool, joined: bool) -> Severity:
+    """Rate an interpenetration; that of two joined links moves nothing: engines ignore it."""
+    if not fails:
+        return Severity.INFO
+    return Severity.WARNING if joined else Severity.ERROR
 
 
 def _name_mechanism(robot: Robot, start: StateSnapshot, contact: Contact) -> str:
