@@ -120,16 +120,17 @@ def report_unwritten_settings(
         reasons: Why the format does not have settings, by the names of their rows.
     """
     for kind, name, rows, settings in list_settings(robot):
-        found: dict[tuple[Place, str], list[str]] = {}
+        found: dict[tuple[Place, str, bool], list[str]] = {}
         for row in rows:
             value = settings.get(row.name)
             if value is None or value.content == row.default or has_counterpart(row):
                 continue
             if _EXPRESSED_TAGS.isdisjoint(row.tags):
-                found.setdefault((value.place, value.tag if value.xml else ""), []).append(row.name)
-        for (place, tag), lost in found.items():
-            usual = Severity.INFO if TUNING.issuperset(lost) else Severity.WARNING
-            reason = reasons.get(lost[0], Reason("", usual))
+                tag, tunes = value.tag if value.xml else "", row.name in TUNING
+                found.setdefault((value.place, tag, tunes), []).append(row.name)
+        for (place, tag, tunes), lost in found.items():
+            usual = Reason("", Severity.INFO if tunes else Severity.WARNING)
+            reason = reasons.get(lost[0], usual)
             what = " and ".join(lost).replace("_", " ")
             what += f" (<{tag}>)" if tag else ""
             text = f"{what} of {kind} '{name}' {'are' if len(lost) > 1 else 'is'} not written"
