@@ -181,7 +181,7 @@ class Packages:
             return os.path.normpath(path)
         if self._given.startswith(os.pardir):
             return os.path.relpath(path)
-        return shorten_path(path)
+        return "." if os.path.normpath(path) == os.getcwd() else shorten_path(path)
 
     def make_finder_for(self, path: str | Path) -> Packages:
         """Return a finder for another file of the same robot, which reads what this one reads."""
@@ -353,13 +353,13 @@ class Packages:
         own = self.own
         if own:
             yield (
-                f"the file's own package '{own[0]}' in {own[1]}",
+                f"the file's own package '{own[0]}' in {self.shorten_path(own[1])}",
                 own[1] if own[0] == name else None,
             )
         else:
-            yield f"for a package.xml above {self.file}", None
+            yield f"for a package.xml above {self.shorten_path(self.file)}", None
         for root in self._list_workspace_roots(own[1] if own else None):
-            yield f"packages below {root}", self._find_packages(root).get(name)
+            yield f"packages below {self.shorten_path(root)}", self._find_packages(root).get(name)
         if own and is_installed_as(own[1], name, self.files):
             yield f"the file's own package, which CMake installs as {name}", own[1]
         if name in self.configured:
