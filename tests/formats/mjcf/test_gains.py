@@ -205,6 +205,24 @@ def test_axes_on_one_line_keep_a_gain(write):
         assert 0.01 <= held.reduced <= 0.1
 
 
+@pytest.mark.parametrize(("light", "is_singular"), [(1e-3, False), (1e-5, True)])
+def test_axes_on_one_line_with_a_light_link_between_keep_a_stable_gain(write, light, is_singular):
+    """Without an armature, a gain is at most 2.56 times that of the free chain."""
+    inside = INERTIAL.replace("0.1", f"{light:g}")
+    text = robot(
+        link("base"), link("a", inside), link("b"),
+        joint("i", "base", "a", inside=LIMIT), joint("j", "a", "b", inside=LIMIT),
+    )  # fmt: skip
+    loaded = load(write("r.urdf", text))
+    masses = {name: link_inertia(loaded.link[name]) for name in ("a", "b")}
+    loads = compute_joint_loads(create_structure(loaded), masses, {})
+    free = {"i": light, "j": light * 0.1 / (light + 0.1)}
+    for name, held in loads.items():
+        assert held.is_singular == is_singular
+        if not is_singular:
+            assert held.reduced == pytest.approx((4 / LONGER) ** 2 * free[name], rel=1e-6)
+
+
 @pytest.mark.library("mujoco")
 def test_bounded_gains_run_and_those_of_the_effort_do_not(write, tmp_path):
     from urdftool.formats.mjcf.verify_runs import run_at_home

@@ -33,10 +33,14 @@ WHEEL = 0.05
 """Distance of the center of mass of a wheel from its axis, relative to its height, at most; chosen,
 no source."""
 
-SINGULAR = 1e-6
+SINGULAR = 1e-3
 """Ratio of these inertias below which nothing with mass is between two axes; chosen, no source."""
 
 _LEAST_EIGENVALUE = 1e-12  # of the mass matrix with a diagonal of ones, above its rounding
+
+STABLE = 2.56
+"""Largest ratio of the inertia that bounds a gain to that with the other joints free: (4/2.5)²,
+which ``servo_gains.LONGER`` derives from the longest step at which servos must not diverge."""
 
 LEAST_REDUCED = 0.1
 """Least ratio of the inertia with the other joints free to that with them held; chosen, no source.
@@ -118,7 +122,10 @@ def compute_joint_loads(
         load = _compute_load(
             joint, poses[joint.child], bodies.select(moved), points[held], forces[held]
         )
-        part = min(max(ratios[joint.name], LEAST_REDUCED), 1.0)
+        ratio = ratios[joint.name]
+        part = min(max(ratio, LEAST_REDUCED), 1.0)
+        if ratio >= SINGULAR:  # others get an armature
+            part = min(part, STABLE * ratio)
         load = replace(load, free=part * load.inertia)
         if held.any():
             stiffness = _compute_stiffness(joint, poses[joint.child], bodies, bodies.select(moved))
@@ -127,7 +134,7 @@ def compute_joint_loads(
             load = replace(load, reduced=load.free)
         found[joint.name] = replace(
             load,
-            is_singular=ratios[joint.name] < SINGULAR,
+            is_singular=ratio < SINGULAR,
             is_followed=joint.name in leaders,
         )
     return found

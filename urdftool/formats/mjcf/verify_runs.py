@@ -112,7 +112,7 @@ def check_runs(
     steps = " and ".join(f"{step * 1000:g}" for step in timesteps)
     check = Check(
         "runs",
-        f"{SECONDS:g} s from {start}, {steps} ms: no warning, limits, base motion [m]",
+        f"{SECONDS:g} s from {start}, {steps} ms: no warning, limits, joints, base [m]",
         DRIFT,
     )
     for timestep in timesteps:
