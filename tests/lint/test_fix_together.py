@@ -116,7 +116,7 @@ def test_a_fix_that_reveals_findings_in_two_robots_of_one_macro_is_made(write):
     write("part.xacro", XACRO.format(part))
     more = '<xacro:part name="b"/>\n<xacro:part name="c"/>\n'
     paths = [write(f"r{n}.urdf.xacro", XACRO.format(USES + more)) for n in range(2)]
-    options = Options(fixes=True)
+    options = Options(Settings(targets=frozenset(("moveit",))), fixes=True)
     reports = [check_file(path, options) for path in paths]
     done = fix_run.apply_fixes(reports, options, unsafe=True)
     assert {"unknown-joint-type", "missing-collision"} <= set(done.applied)

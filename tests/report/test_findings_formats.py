@@ -216,7 +216,7 @@ def test_html_begins_with_errors_and_names_files_by_relative_paths(lint, write, 
 @pytest.mark.library("PIL")
 def test_html_has_a_picture_of_each_robot_or_the_reason_for_none(lint, write):
     box = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
-    drawn = write("drawn.urdf", f'<robot name="r"><link name="a">{box}<oops/></link></robot>')
+    drawn = write("drawn.urdf", f'<robot name="r"><link name="a">{box}<colision/></link></robot>')
     bare = write("bare.urdf", '<robot name="r"><link name="a"/><link name="b"/></robot>')
     page = lint("html", drawn, bare).out
     assert page.count('src="data:image/png;base64,') == 1

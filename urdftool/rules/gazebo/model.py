@@ -132,7 +132,6 @@ def rename_reserved(problem: Problem, context: FixContext) -> Proposal | None:
         "gz, gazebo-classic": "load the robot, but nothing drives its joints",
     },
     pedantic="files without a plugin in packages that do not depend on a control plugin of Gazebo",
-    infos=False,
 )
 def missing_control_plugin(
     robot: Robot, description: Description, targets: frozenset[str], guessed: frozenset[str]
