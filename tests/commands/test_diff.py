@@ -76,6 +76,11 @@ def test_the_same_robot_is_exit_0(urdftool, write):
     )
 
 
+def test_numbers_that_differ_look_different(urdftool, write):
+    result = urdftool("diff", write("a.urdf", text(3)), write("b.urdf", text(3.0000002)))
+    assert result.out == "link 'arm'\n  mass: 3 → 3.0000002 kg (+6.67e-06 %)\n"
+
+
 def test_a_tolerance(urdftool, write):
     old, new = write("old.urdf", text()), write("new.urdf", text(2.0001, 0.50001))
     assert urdftool("diff", old, new).code == 1

@@ -144,8 +144,13 @@ def _list_by_part(changes: Iterable[Difference]) -> Iterator[tuple[str, Iterator
 
 
 def _format_values(change: Difference) -> tuple[str, str]:
+    """Format both values with six digits, or with as many as show what differs."""
     before, after = _get_values(change)
-    return _format_value(before), _format_value(after)
+    for digits in (6, 10, 17):
+        texts = _format_value(before, digits), _format_value(after, digits)
+        if texts[0] != texts[1]:
+            break
+    return texts
 
 
 def _get_values(change: Difference) -> tuple[Any, Any]:
@@ -156,26 +161,28 @@ def _get_values(change: Difference) -> tuple[Any, Any]:
     return before, after
 
 
-def _format_value(value: Any) -> str:
-    """Format a value; empty for None."""
+def _format_value(value: Any, digits: int) -> str:
+    """Format a value with significant digits; empty for None."""
     if value is None:
         return ""
     if isinstance(value, float):
-        return f"{value:.6g}"
+        return f"{value:.{digits}g}"
     if isinstance(value, tuple | list):
-        return " ".join(_format_value(part) for part in value)
+        return " ".join(_format_value(part, digits) for part in value)
     if isinstance(value, dict):
-        return _format_facts(value)
+        return _format_facts(value, digits)
     return escape_controls(str(value))
 
 
-def _format_facts(facts: dict[str, Any]) -> str:
+def _format_facts(facts: dict[str, Any], digits: int) -> str:
     """Format a pose, a shape, or the properties of a part."""
     if "rpy" in facts:
         turned = any(abs(angle) > 1e-12 for angle in facts["rpy"])
-        rpy = " ".join(f"{math.degrees(angle):.4g}°" for angle in facts["rpy"])
-        return f"xyz {_format_value(facts['xyz'])}" + (f" rpy {rpy}" if turned else "")
+        rpy = " ".join(f"{math.degrees(angle):.{digits - 2}g}°" for angle in facts["rpy"])
+        return f"xyz {_format_value(facts['xyz'], digits)}" + (f" rpy {rpy}" if turned else "")
     if "shape" in facts:
-        rest = " ".join(f"{k} {_format_value(v)}" for k, v in facts.items() if k != "shape")
+        rest = " ".join(f"{k} {_format_value(v, digits)}" for k, v in facts.items() if k != "shape")
         return f"{facts['shape'] or 'nothing'} {rest}".strip()
-    return ", ".join(f"{key} {_format_value(v)}" for key, v in facts.items() if v not in (None, ""))
+    return ", ".join(
+        f"{key} {_format_value(v, digits)}" for key, v in facts.items() if v not in (None, "")
+    )
