@@ -283,6 +283,29 @@ def test_columns_are_in_the_units_of_the_editor(folder, encoding, column):
     path.unlink()
 
 
+def test_files_are_watched_where_the_editor_does_so_on_request(folder):
+    registered = []
+
+    class Editor(Client):
+        def wait(self, until):
+            def look(message):
+                if message.get("method") == "client/registerCapability":
+                    registered.extend(message["params"]["registrations"])
+                return until(message)
+
+            super().wait(look)
+
+    watched = {"didChangeWatchedFiles": {"dynamicRegistration": True}}
+    with Editor(folder, capabilities={"workspace": watched}) as client:
+        client.open(folder / "two.urdf.xacro")
+        client.wait_for(folder / "arm.xacro", "axis-not-unit")
+        client.wait_until(lambda: bool(registered))
+    (one,) = registered
+    assert one["method"] == "workspace/didChangeWatchedFiles"
+    (watcher,) = one["registerOptions"]["watchers"]
+    assert "xacro" in watcher["globPattern"]
+
+
 def test_the_server_ends_with_its_editor(folder):
     client = Client(folder)
     client.process.stdin.close()

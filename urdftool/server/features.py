@@ -38,6 +38,7 @@ def _add_documents(server: RobotServer) -> None:
         root = ls.workspace.root_path
         known = [folder for folder in folders if folder] or ([root] if root else [])
         ls.start_worker(known)
+        ls.watch_files()
         await ls.watch_editor()
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)

@@ -23,6 +23,9 @@ from .worker_process import PATIENCE, WorkerProcess
 WATCH = 3.0
 """Time [s] between looks at whether the process of the editor exists; chosen."""
 
+WATCHED = "**/*.{urdf,xacro,srdf,sdf,mjcf,xml,yaml,yml,toml,stl,dae,obj,glb,launch,py,txt}"
+"""Files that a check may read; chosen, those that the extension of VS Code watches."""
+
 QUIET = 0.05
 """Time [s] without an edit before a check; chosen: keys of a fast typist are 0.1 s apart."""
 
@@ -191,6 +194,17 @@ class RobotServer(LanguageServer):
             if not _is_running(self.process_id):
                 self.worker.kill()
                 os._exit(0)
+
+    def watch_files(self) -> None:
+        """Ask an editor that watches files on request to report those that were changed."""
+        workspace = self.client_capabilities.workspace
+        known = workspace.did_change_watched_files if workspace is not None else None
+        if known is None or not known.dynamic_registration:
+            return
+        method = lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES
+        options = {"watchers": [{"globPattern": WATCHED}]}
+        registration = lsp.Registration(method, method, options)
+        self.client_register_capability(lsp.RegistrationParams([registration]))
 
     async def refresh(self) -> None:
         """Read files again, which changed on the disk, and check all open documents."""
