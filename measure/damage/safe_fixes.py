@@ -53,7 +53,8 @@ STATED = {
                              ("simulator data", "gazebo[] added")},
     "plugin-class-mismatch": {("simulator data", "plugin")},
     "ros2-control-nested": {("simulator data", "existence")},
-    "unknown-element": {("colors", "color of visual")},
+    "unknown-element": {("colors", "color of visual"),  # a material is moved where it is read
+                        ("simulator data", "visual/geometry/material[] removed")},
     "unprefixed-hardware-interface": {("simulator data", "joint[]/hardwareInterface")},
     "wrong-arity": {("colors", "color of visual")},
     "wrong-case-keyword": {("tree", "type")},
