@@ -52,6 +52,8 @@ STATED = {
     "ogre-material-script": {("simulator data", "material"), ("looks", "material script"),
                              ("simulator data", "gazebo[] added")},
     "plugin-class-mismatch": {("simulator data", "plugin")},
+    "redundant-inertia-attributes": {("simulator data", f"inertial/inertia/@{name}")
+                                     for name in ("iyx", "izx", "izy")},
     "ros2-control-nested": {("simulator data", "existence")},
     "unknown-element": {("colors", "color of visual"),  # a material is moved where it is read
                         ("simulator data", "visual/geometry/material[] removed")},
