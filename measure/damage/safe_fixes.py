@@ -55,8 +55,11 @@ STATED = {
     "redundant-inertia-attributes": {("simulator data", f"inertial/inertia/@{name}")
                                      for name in ("iyx", "izx", "izy")},
     "ros2-control-nested": {("simulator data", "existence")},
+    "unknown-attribute": {("simulator data", "axis/@rpy")},
     "unknown-element": {("colors", "color of visual"),  # a material is moved where it is read
-                        ("simulator data", "visual/geometry/material[] removed")},
+                        ("simulator data", "visual/geometry/material[] removed"),
+                        ("simulator data", "visual/geometry/material[]/color removed"),
+                        ("simulator data", "visual/geometry/material[]/color/@rgba")},
     "unprefixed-hardware-interface": {("simulator data", "joint[]/hardwareInterface")},
     "wrong-arity": {("colors", "color of visual")},
     "wrong-case-keyword": {("tree", "type")},
