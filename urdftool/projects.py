@@ -22,7 +22,7 @@ TRUST_REMEDY = "pass --trust if the input is trusted"
 _REPOSITORY_MARKS = (".git", ".hg")
 _PROJECT_MARKS = (
     *("package.xml", "model.config", "pyproject.toml", "CMakeLists.txt"),
-    *("urdftool.toml", ".urdftool.toml"),
+    *("setup.py", "setup.cfg", "urdftool.toml", ".urdftool.toml"),
 )
 _DESCRIPTIONS = ("urdf", "xacro", "robots", "xml", "xmls", "mjcf", "mujoco", "sdf", "usd")
 _ASSETS = (

@@ -13,7 +13,11 @@ from ...model.kinematics import UNLIMITED
 from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import compute_cross, compute_norm
 from ...model.settings import JOINTS_OF_MUJOCO, RESISTANCE
-from ..common.missing_bounds import explain_missing_bounds, explain_negative_effort
+from ..common.missing_bounds import (
+    explain_default_bounds,
+    explain_missing_bounds,
+    explain_negative_effort,
+)
 from ..written import Written
 from .gazebo import get_attributes
 from .structure import Structure, get_bounds
@@ -138,14 +142,10 @@ def _bound_losses(
     lower, upper = limit.lower or 0.0, limit.upper or 0.0
     if joint.turns_freely:
         yield "limit-missing", explain_missing_bounds(joint), Severity.WARNING
-    elif limit.lower is None and limit.upper is None:
-        held = "its link is welded there" if welded else "an equality constraint holds it there"
-        yield (
-            "limit-missing",
-            f"joint '{joint.name}' has no lower and upper limit, which count as zero: {held}; "
-            "write them, or the type continuous",
-            Severity.WARNING,
-        )
+    elif text := explain_default_bounds(
+        joint, "its link is welded there" if welded else "an equality constraint holds it there"
+    ):
+        yield "limit-missing", text, Severity.WARNING
     elif lower == upper:
         unit = "m" if joint.type == "prismatic" else "rad"
         held = (

@@ -10,7 +10,7 @@ from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import IDENTITY, compute_cross, compute_norm
 from ...model.settings import MAGNITUDES, RESISTANCE
 from ..common.actuator_config import JointSettings
-from ..common.missing_bounds import explain_missing_bounds
+from ..common.missing_bounds import explain_default_bounds, explain_missing_bounds
 from .extensions import convert_joint_extensions, report_dissolved_joint
 from .frames import get_parent_frame
 from .inertials import WEIGHTLESS
@@ -102,12 +102,8 @@ def _add_bounds(node: Node, t: Translation, part: Joint) -> None:
     if part.turns_freely:
         t.report_loss("limit", explain_missing_bounds(part), limit, part)
         return
-    if limit.lower is None and limit.upper is None:
-        text = (
-            f"<limit> of joint '{part.name}' has no lower and upper, which default to 0; it "
-            "cannot move"
-        )
-        t.report_note("limit", text, limit, part)
+    if text := explain_default_bounds(part):
+        t.report_loss("limit", text, limit, part)
     lower, upper = limit.lower or 0.0, limit.upper or 0.0
     if lower > upper:
         text = f"lower limit of joint '{part.name}' is above its upper limit; they are swapped"

@@ -39,7 +39,7 @@ ELEMENTS = (
         "name",
         "made unique in the link; LINK_visual where none is written",
     ),
-    ("box, cylinder, sphere, capsule", "the same", "capsule from SDF 1.8 on"),
+    ("box, cylinder, sphere, capsule, ellipsoid", "the same", "the last two from SDF 1.8 on"),
     ("mesh filename, scale", "mesh uri, scale", "copied with the textures it names"),
     (
         "mesh glTF",

@@ -46,12 +46,15 @@ def set_place(node: Node, t: Translation, link: Link, origin: Origin | None) -> 
 
 def is_writable(t: Translation, link: Link, shape: Visual | Collision) -> bool:
     """Tell whether a shape can be exported; report it if not."""
-    geometry, beyond = shape.geometry, (UnknownShape, Ellipsoid, Cone, Plane)
-    if geometry is None or isinstance(geometry, beyond) or not has_extent(geometry):
+    geometry, beyond = shape.geometry, (UnknownShape, Cone, Plane)
+    is_late = isinstance(geometry, Ellipsoid) and not t.options.is_at_least("1.8")
+    if geometry is None or is_late or isinstance(geometry, beyond) or not has_extent(geometry):
         if geometry is None:
             what = "has no geometry"
+        elif is_late:
+            what = "has <ellipsoid>, which SDF has from 1.8 on"
         elif isinstance(geometry, beyond):
-            what = f"has <{get_shape_name(geometry)}>, which cannot be written"
+            what = f"has <{get_shape_name(geometry)}>, which is not written"
         else:
             what = f"has a <{get_shape_name(geometry)}> without extent"
         t.report_loss(
@@ -119,9 +122,14 @@ def _add_sphere(node: Node, sphere: Sphere) -> None:
     add(node, "radius", number_text(sphere.radius))
 
 
+def _add_ellipsoid(node: Node, ellipsoid: Ellipsoid) -> None:
+    add(node, "radii", format_numbers_text(ellipsoid.radii))
+
+
 _PRIMITIVES: dict[type, Callable[..., None]] = {
     Box: _add_box,
     Cylinder: _round,
     Capsule: _round,
     Sphere: _add_sphere,
+    Ellipsoid: _add_ellipsoid,
 }

@@ -22,7 +22,7 @@ from ...model.pose import (
     rotation_from_quaternion,
 )
 from ...model.settings import LOST_SETTINGS, RESISTANCE, SPRING
-from ..common.missing_bounds import explain_missing_bounds
+from ..common.missing_bounds import explain_default_bounds, explain_missing_bounds
 from ..written import Written
 from .bodies import Bodies
 from .joint_values import JointValues
@@ -139,13 +139,12 @@ class JointWriter:
         return usd.GetPrim()
 
     def _write_limits(self, prim: Usd.Prim, joint: Joint) -> None:
+        text = explain_default_bounds(joint)
         if joint.turns_freely and joint.type != "continuous":
+            text = explain_missing_bounds(joint)
+        if text:
             self.written.report_loss(
-                "limit-missing",
-                explain_missing_bounds(joint),
-                joint.place,
-                kind="joint",
-                name=joint.name,
+                "limit-missing", text, joint.place, kind="joint", name=joint.name
             )
         lower, upper = get_limits(joint)
         for name, bound in (("lowerLimit", lower), ("upperLimit", upper)):
