@@ -263,15 +263,21 @@ def _compare_named_frames(pair: Pair, match: Match, comparison: Comparison) -> N
 
 
 def _add_missing_sites(pair: Pair, match: Match, comparison: Comparison) -> None:
-    """Record the sites that only one of two MJCF has."""
-    bodies = match.one, match.two
-    if set(pair.formats) != {"mjcf"}:
-        return
-    for side, body in enumerate(bodies):
-        other = bodies[1 - side]
+    """Record the sites and frames of a body that the other robot has in another, or not at all.
+
+    That one is missing is a difference of two MJCF and of two SDF; other formats have links there.
+    """
+    kind = {frozenset(("mjcf",)): "site", frozenset(("sdf",)): "frame"}.get(frozenset(pair.formats))
+    for side, (body, other) in enumerate(((match.one, match.two), (match.two, match.one))):
+        bodies = (pair.b, pair.a)[side].by_name.values()
+        elsewhere = {name for one in bodies for name in (*one.frames, *one.members)}
         for name, (frame, _) in body.frames.items():
-            if frame.kind == "site" and name not in {*other.frames, *other.members}:
-                add_presence(comparison, "frames", "link", "site", side, frame, name, "site")
+            if name in other.frames or name in other.members:
+                continue
+            if frame.kind == kind or name in elsewhere:
+                add_presence(
+                    comparison, "frames", "link", frame.kind, side, frame, name, frame.kind
+                )
 
 
 def _is_moved(match: Match, x: str, y: str) -> bool:

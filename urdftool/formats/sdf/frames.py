@@ -5,7 +5,9 @@ A frame comes after the element it is attached to, as some readers misplace it o
 
 from __future__ import annotations
 
+from ...diagnostic import Severity
 from ...model.elements import Joint, Link
+from .names import remove_reserved
 from .pose import set_origin, set_pose
 from .translation import Translation
 from .xml import Node, add
@@ -22,6 +24,26 @@ def add_frames(model: Node, t: Translation) -> None:
             _add_joint_frame(model, t, joint)
         if not t.plan.stays(name):
             _link_frame(model, t, link, joint)
+
+
+def add_own_frames(model: Node, t: Translation) -> None:
+    """Add the frames of an SDF and the sites of an MJCF, if SDF has frames and the name is free."""
+    taken = {node.get("name") for node in model}
+    for frame in t.robot.frames:
+        if frame.kind == "body":
+            continue
+        name, exact = remove_reserved(frame.name), t.options.is_at_least("1.9")
+        if t.options.is_at_least("1.7") and name == frame.name and name and name not in taken:
+            taken.add(name)
+            made = add(model, "frame", name=name, attached_to=t.names.link(frame.link))
+            set_origin(made, frame.origin, exact=exact)
+        else:
+            text = (
+                f"frame '{frame.name}' is dropped" if frame.name else "an unnamed frame is dropped"
+            )
+            t.written.report_loss(
+                "frame", text, frame.place, kind="frame", name=frame.name, severity=Severity.INFO
+            )
 
 
 def _add_joint_frame(model: Node, t: Translation, joint: Joint) -> None:

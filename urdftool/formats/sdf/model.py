@@ -13,7 +13,7 @@ from .body_sensors import add_body_sensors, is_body_sensor
 from .control import keep_control
 from .copied_elements import copy_raw_element, is_frame, move_to_owner
 from .extensions import write_settings
-from .frames import add_frames
+from .frames import add_frames, add_own_frames
 from .joints import add_joint
 from .links import link
 from .names import get_model_name
@@ -40,6 +40,7 @@ def add_model(parent: Node, t: Translation) -> Node:
         add_frames(node, t)
     else:
         _report_frames(t)
+    add_own_frames(node, t)
     _add_parts(node, t)
     keep_control(node, t)
     return node
