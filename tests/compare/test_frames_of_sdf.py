@@ -42,7 +42,9 @@ def test_a_frame_is_exported_to_sdf_and_a_link_of_urdf_is_compared_with_it(urdft
 def test_sdf_before_1_7_has_no_frames(urdftool, tmp_path):
     one = make(tmp_path, "one.sdf", FRAME.format("a", 1))
     out = tmp_path / "out.sdf"
-    result = urdftool("export", "sdf", one, "-o", out, "--target", "gazebo-classic", "-v")
+    result = urdftool(
+        "export", "sdf", one, "-o", out, "--target", "gazebo-classic", "--sdf-version", "1.6", "-v"
+    )
     assert result.code == 0
     assert "frame 'f' is dropped" in result.err
     assert "<frame" not in out.read_text()
