@@ -118,3 +118,39 @@ def test_filters_of_contacts_are_named(write, urdftool, value, is_named):
     write("m.sdf", text)
     result = urdftool("simulate", "m.sdf")
     assert ("collide_bitmask of a collision of link 'a'" in result.err) is is_named
+
+
+@pytest.mark.library("pybullet")
+def test_what_only_pybullet_reads_of_a_collision_and_a_contact_with_the_world_are_named(
+    urdftool, tmp_path
+):
+    file = tmp_path / "r.urdf"
+    file.write_text(
+        '<robot name="r"><link name="a"><inertial><mass value="1"/>'
+        '<inertia ixx=".1" iyy=".1" izz=".1" ixy="0" ixz="0" iyz="0"/></inertial>'
+        '<collision group="0" mask="0"><geometry><box size="1 1 1"/></geometry></collision>'
+        "</link></robot>"
+    )
+    result = urdftool("simulate", file)
+    assert "group of a collision of link 'a', mask of a collision of link 'a'" in result.err
+
+
+@pytest.mark.library("mujoco")
+@pytest.mark.library("pybullet")
+def test_a_contact_with_the_world_that_a_file_excludes_is_named(urdftool, tmp_path):
+    file = tmp_path / "r.xml"
+    file.write_text(
+        '<mujoco><worldbody><geom name="floor" type="plane" size="5 5 .1"/>'
+        '<body name="a" pos="0 0 .2"><freejoint/><geom type="box" size=".2 .2 .05"/></body>'
+        '</worldbody><contact><exclude body1="world" body2="a"/></contact></mujoco>'
+    )
+    assert "no contact of 'world' and 'a'" in urdftool("simulate", file).err
+    out = tmp_path / "out.xml"
+    assert urdftool("export", "mjcf", file, "-o", out).code == 0
+    assert '<exclude body1="world" body2="a"/>' in out.read_text()
+    for language in ("urdf", "sdf", "usd"):
+        place = tmp_path / f"out.{'usda' if language == 'usd' else language}"
+        result = urdftool("export", language, file, "-o", place)
+        assert result.code == 0
+        assert "'world'" in result.err or "'world – a'" in result.err
+        assert "[lossy-exclusion]" in result.err

@@ -99,20 +99,22 @@ def report_replaced(console: Console, robot: Robot) -> None:
 
 def _list_contact_filters(robot: Robot) -> Iterator[str]:
     """Yield the settings by which collisions of a file touch only some others, or nothing."""
+    from ..model.read_settings import list_bullet_attributes
     from ..model.settings import SURFACE, SURFACE_OF_MUJOCO
 
+    found: dict[str, list[str]] = {}
     for row in (*SURFACE, *SURFACE_OF_MUJOCO):
         if row.name not in _CONTACT_FILTERS:
             continue
-        links = [
-            link.name
-            for link in robot.links
-            for shape in link.collisions
-            if row.name in shape.surface and shape.surface[row.name].content != row.default
-        ]
-        if links:
-            more = f" and {len(links) - 1} more" if len(links) > 1 else ""
-            yield f"{row.name} of a collision of link '{links[0]}'{more}"
+        for link in robot.links:
+            for shape in link.collisions:
+                if row.name in shape.surface and shape.surface[row.name].content != row.default:
+                    found.setdefault(row.name, []).append(link.name)
+    for name, link_name in list_bullet_attributes(robot):
+        found.setdefault(name, []).append(link_name)
+    for name, links in found.items():
+        more = f" and {len(links) - 1} more" if len(links) > 1 else ""
+        yield f"{name} of a collision of link '{links[0]}'{more}"
 
 
 _CONTACT_FILTERS = (

@@ -90,6 +90,18 @@ def list_settings(robot: Robot) -> Iterator[tuple[str, str, Sequence[Setting], S
         yield "joint", joint.name, ALL_OF_JOINTS, joint.settings
 
 
+_OF_BULLET = ("group", "mask", "concave")
+"""Attributes of ``<collision>`` of URDF by which PyBullet decides what touches what."""
+
+
+def list_bullet_attributes(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield the attributes of collisions that only PyBullet reads, with their links."""
+    for link in robot.links if robot.format == "urdf" else ():
+        for collision in link.collisions:
+            if collision.xml is not None:
+                yield from ((n, link.name) for n in _OF_BULLET if n in collision.xml.attributes)
+
+
 def read_sdf_settings(
     element: Element,
     rows: Iterable[Setting],

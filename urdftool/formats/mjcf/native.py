@@ -177,7 +177,9 @@ def _copy_section(
     for element in copied:
         missing = _find_missing(element, names)
         if missing:
-            _report(element, f"it is not copied: the export has no {missing}", written)
+            text = f"it is not copied: the model of the robot has no {missing}"
+            lost = ", which is scenery; the contacts of the pair are lost"
+            _report(element, text + (lost if element.tag == "pair" else ""), written)
             continue
         made = _build(element)
         _set_class(made, tag, classes)
