@@ -118,7 +118,8 @@ def test_verify_prints_a_table(urdftool, tmp_path):
     table = [line for line in rows if line.endswith(("equal", "none", "differs", "announced"))]
     assert len(table) > 20
     other = [line.split("  ")[0] for line in table if not line.endswith(("equal", "none"))]
-    assert other == ["joint physics", "actuators", "contact pairs", "configurations"]
+    assert other == ["joint physics", "actuators", "contact pairs", "configurations", "runs"]
+    assert "runs: announced: 1 motor without a servo got the torque" in result.out
     assert "joint physics: announced: stiffness of stops added at 1 of 5 joints" in result.out
     assert rest.startswith("not compared: ")
 

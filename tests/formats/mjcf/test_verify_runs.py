@@ -199,7 +199,7 @@ def test_motors_of_an_arm_get_the_torque_that_gravity_needs(tmp_path, limit, hol
         text.replace('kp="200" kv="5"', f'ctrllimited="true" ctrlrange="-{limit} {limit}"')
     )
     found = runs(path).announced
-    assert found[-1] == "4 motors got the torque that gravity needs; they are no servos"
+    assert found[-1] == "4 motors without a servo got the torque that gravity needs"
     assert (len(found) == 1) == holds
 
 

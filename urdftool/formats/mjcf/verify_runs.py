@@ -132,7 +132,8 @@ def check_runs(
         for fault in (*trial.describe_joints(), *trial.describe_base()):
             check.compare(max(trial.drift, 2 * DRIFT), fault, known=True)
     if trial.motors:
-        text = f"{len(trial.motors)} motors got the torque that gravity needs; they are no servos"
+        count = f"{len(trial.motors)} motor{'s' if len(trial.motors) > 1 else ''}"
+        text = f"{count} without a servo got the torque that gravity needs"
         check.compare(2 * DRIFT, text, known=True)
     return check
 
