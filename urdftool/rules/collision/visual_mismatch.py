@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import os
 import re
 from collections.abc import Iterator
 
 from ...diagnostic import Severity
 from ...model.bounds import Bounds, compute_size
-from ...model.elements import Collision, Cylinder, Link, Mesh, Robot, Sphere, Visual
+from ...model.elements import Collision, Link, Robot, Visual
 from ...model.gltf_axes import is_gltf
-from ...model.pose import make_pose
 from ...source.description import Description
 from ..fix import FixContext, Proposal, depends_on_arguments, unsafe
 from ..mesh.link_extents import LinkExtents, get_extents
@@ -31,6 +29,16 @@ from ..rule import (
 from ..shape_changes import copy_origin, set_in_origin
 from ..words import join_some
 from .displaced import find_displaced
+from .larger_shapes import (
+    find_longer_axis,
+    is_ball_around,
+    is_ball_of_wheel,
+    is_composed,
+    is_doubled,
+    is_inside,
+    is_swept,
+    join_moved_visuals,
+)
 from .misalignment import Misalignment, compare_places, join_attached_boxes, measure_boxes
 from .z_up_visuals import find_z_up_visuals
 
@@ -43,10 +51,6 @@ _FOR_CONTACT = re.compile(r"collision|convex|hull|simpl|low[-_]?poly", re.IGNORE
 
 _Z_UP = "RViz rotates it: export it with Y up, or use --gltf-up z"
 _AXES = f"; if a glTF file has Z up, {_Z_UP}"
-
-
-_SWEPT = 1.2
-"""A disc of a rotor is at most so many times as wide as its blades. Chosen, no source."""
 
 
 def count_faces(use: MeshUse) -> int:
@@ -228,7 +232,7 @@ def collision_much_larger_than_visual(
         if (
             visual_box is None
             or collision_box is None
-            or _find_longer_axis(collision_box, visual_box, ratio, least) is None
+            or find_longer_axis(collision_box, visual_box, ratio, least) is None
         ):
             continue
         if find_displaced(robot, link) or link in find_z_up_visuals(robot, description):
@@ -236,121 +240,27 @@ def collision_much_larger_than_visual(
         around = join_attached_boxes(reach, link, "visuals", visual_box, collision_box)
         if (
             around is None
-            or (axis := _find_longer_axis(collision_box, around, ratio, least)) is None
+            or (axis := find_longer_axis(collision_box, around, ratio, least)) is None
         ):
             continue
         a, b = collision_box.size[axis], around.size[axis]
-        if _is_swept(robot, link, collision_box, around) or _is_ball_of_wheel(link, around):
+        if is_swept(robot, link, collision_box, around) or is_ball_of_wheel(link, around):
             continue
-        if _is_composed(link) or _is_ball_around(robot, link, around):
+        if is_composed(link) or is_ball_around(robot, link, around):
             continue
-        moved = _join_moved_visuals(robot, reach, link, around)
-        if _is_inside(collision_box, moved, axis):
+        moved = join_moved_visuals(robot, reach, link, around)
+        if is_inside(collision_box, moved, axis):
             continue
         yield Problem(
             link,
             f"collision of link '{link.name}' spans {a:.3g} m along {'xyz'[axis]}, but its visual "
             f"only {b:.3g} m"
             + (
-                "; is the radius a diameter?"
-                if _is_doubled(link, collision_box, visual_box)
-                else ""
+                "; is the radius a diameter?" if is_doubled(link, collision_box, visual_box) else ""
             ),
             at=link.collisions[0].geometry or link.collisions[0],
             data={"collision": a, "visual": b, "axis": "xyz"[axis]},
         )
-
-
-_COMPOSED = 3
-"""Number of primitives that are composed to be larger than the visual. Chosen, no source."""
-
-
-def _is_composed(link: Link) -> bool:
-    """Tell whether the collisions of a link are several primitives."""
-    shapes = [collision.geometry for collision in link.collisions]
-    return len(shapes) >= _COMPOSED and not any(isinstance(shape, Mesh) for shape in shapes)
-
-
-def _find_longer_axis(
-    collision_box: Bounds, visual_box: Bounds, ratio: float, least: float
-) -> int | None:
-    """Find the first axis along which one box is far longer than another; None if there is none."""
-    for axis, (a, b) in enumerate(zip(collision_box.size, visual_box.size, strict=True)):
-        if a > ratio * b and a - b > least:
-            return axis
-    return None
-
-
-def _is_swept(robot: Robot, link: Link, collision_box: Bounds, around: Bounds) -> bool:
-    """Tell whether a flat disc on a rotating joint is as wide as the visual is long."""
-    joint = robot.tree.get_parent_joint(link.name)
-    shapes = [collision.geometry for collision in link.collisions]
-    if joint is None or joint.type not in ("continuous", "revolute") or len(shapes) != 1:
-        return False
-    disc = shapes[0]
-    if not isinstance(disc, Cylinder) or disc.length > disc.radius:
-        return False
-    return max(collision_box.size) <= _SWEPT * max(around.size)
-
-
-def _is_ball_of_wheel(link: Link, around: Bounds) -> bool:
-    """Tell whether the only collision is a sphere as wide as the visual along two axes."""
-    shapes = [collision.geometry for collision in link.collisions]
-    if len(shapes) != 1 or not isinstance(shapes[0], Sphere):
-        return False
-    width = 2 * shapes[0].radius
-    return sum(abs(size - width) <= 0.1 * width for size in around.size) >= 2
-
-
-_AROUND = 1.3
-"""A sphere around a body is at most so many times as wide as its diagonal. Chosen, no source."""
-
-
-def _is_ball_around(robot: Robot, link: Link, around: Bounds) -> bool:
-    """Tell whether the only collision is a sphere as wide as the diagonal of the longest sides.
-
-    Its center is that of the box, up to a fifth of its radius. Wheels have a rule of their own.
-    """
-    joint = robot.tree.get_parent_joint(link.name)
-    if joint is not None and joint.type in ("continuous", "revolute"):
-        return False
-    shapes = [collision.geometry for collision in link.collisions]
-    if len(shapes) != 1 or not isinstance(shapes[0], Sphere):
-        return False
-    radius = shapes[0].radius
-    center = make_pose(link.collisions[0].origin).translation
-    if math.dist(center, around.center) > 0.2 * radius:
-        return False
-    return 2 * radius <= _AROUND * math.hypot(*sorted(around.size)[1:])
-
-
-_BEYOND = 0.1
-"""Part of its length by which geometry may be longer than visuals. Chosen, no source."""
-
-
-def _is_inside(box: Bounds, around: Bounds, axis: int) -> bool:
-    """Tell whether a bounding box is inside of another one along an axis."""
-    slack = _BEYOND * box.size[axis]
-    return box.low[axis] >= around.low[axis] - slack and box.high[axis] <= around.high[axis] + slack
-
-
-def _join_moved_visuals(robot: Robot, reach: LinkExtents, link: Link, box: Bounds) -> Bounds:
-    """Join a bounding box with those of the visuals of the links that the joints of a link move."""
-    for joint in robot.tree.get_child_joints(link.name):
-        child = robot.link.get(joint.child)
-        if child is not None and child.visuals and not joint.is_fixed:
-            other = reach.get_body_box(link, "visuals", [(child, make_pose(joint.origin))])
-            box = box if other is None else box.join(other)
-    return box
-
-
-def _is_doubled(link: Link, collision_box: Bounds, visual_box: Bounds) -> bool:
-    """Tell whether a round collision is twice as wide as the visual, as with a wrong radius."""
-    shapes = [collision.geometry for collision in link.collisions]
-    if len(shapes) != 1 or not isinstance(shapes[0], Cylinder | Sphere):
-        return False
-    ratios = [a / b for a, b in zip(collision_box.size, visual_box.size, strict=True) if b > 0]
-    return sum(1.9 <= ratio <= 2.1 for ratio in ratios) >= 2
 
 
 @rule(
