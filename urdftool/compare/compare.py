@@ -269,10 +269,10 @@ def _add_missing_sites(pair: Pair, match: Match, comparison: Comparison) -> None
     """
     kind = {frozenset(("mjcf",)): "site", frozenset(("sdf",)): "frame"}.get(frozenset(pair.formats))
     for side, (body, other) in enumerate(((match.one, match.two), (match.two, match.one))):
-        bodies = (pair.b, pair.a)[side].by_name.values()
-        elsewhere = {name for one in bodies for name in (*one.frames, *one.members)}
+        bodies = (pair.b, pair.a)[side]
+        elsewhere = {n for one in bodies.by_name.values() for n in (*one.frames, *one.members)}
         for name, (frame, _) in body.frames.items():
-            if name in other.frames or name in other.members:
+            if name in other.frames or name in other.members or name in bodies.robot.joint:
                 continue
             if frame.kind == kind or name in elsewhere:
                 add_presence(
