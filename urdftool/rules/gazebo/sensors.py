@@ -199,10 +199,10 @@ def missing_gz_frame_id(
     frame that the sensor's plugin names, such as the optical frame of a camera, otherwise the link
     of the sensor. If the sensor has a ``<pose>``, write a link that is fixed at that pose, or add
     one: with the link of the sensor its data would be displaced. More than ``together`` sensors of
-    a kind are one finding. Without ROS among the targets it is an info, and sensors for which no
-    link exists are not reported, because no reader may need TF for their data; neither are any
-    sensors if plugins of the robot pass data to YARP instead, or if only a ``<gazebo>`` tag shows
-    that the robot is for new Gazebo.
+    a kind are one finding. Without ROS among the targets it is an info, unless a plugin names the
+    frame, and sensors for which no link exists are not reported, because no reader may need TF for
+    their data; neither are any sensors if plugins of the robot pass data to YARP instead, or if
+    only a ``<gazebo>`` tag shows that the robot is for new Gazebo.
     """
     if "gz" in guessed:
         return
@@ -237,7 +237,8 @@ def missing_gz_frame_id(
                 of_plugin = f", as <{sensor.named.tag}> of its plugin" if sensor.named else ""
                 what = f"{name} has no <gz_frame_id>; write {frame}{of_plugin}{where}"
                 data["frame"] = sensor.frame.name
-            yield Problem(sensor.sensor.element, what, data=data, severity=severity)
+            rated = severity if sensor.named is None else None
+            yield Problem(sensor.sensor.element, what, data=data, severity=rated)
 
 
 def _report_unknown_frame(one: SensorWithoutFrame, name: str) -> Problem:
