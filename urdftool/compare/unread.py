@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..diagnostic import Severity
-from ..finding import Finding
 from ..model.elements import Robot, UnknownShape
 from .difference import Comparison
 from .pair import Pair
@@ -185,7 +184,7 @@ def _collect(robot: Robot, other: Robot) -> dict[str, Counter[_Part]]:
         row = _find_row(robot, code, loss.severity)
         if row is not None and not _is_compared_natively(row, robot, other):
             if (code, robot.format) != ("plugin", _PLUGINS_IN_ROW):
-                found[code] = Counter(_list_parts(loss))
+                found[code] = Counter(_list_parts(loss.data, loss.name, loss.message))
     return found
 
 
@@ -201,11 +200,10 @@ def _find_row(robot: Robot, code: str, severity: Severity) -> _Row | None:
     return _ROWS.get(code, _OTHERS)
 
 
-def _list_parts(loss: Finding) -> Iterator[_Part]:
+def _list_parts(data: Mapping[str, Any], name: str, message: str) -> Iterator[_Part]:
     """Yield the parts in the data of a loss of reading; a remark on a value is one part."""
-    data = loss.data
     if "names" not in data:
-        yield loss.name or "without a name", loss.message, None
+        yield name or "without a name", message, None
         return
     for name, content in zip(data["names"], data["contents"], strict=True):
         yield name or "without a name", data["what"], content

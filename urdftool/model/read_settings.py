@@ -91,7 +91,7 @@ def list_settings(robot: Robot) -> Iterator[tuple[str, str, Sequence[Setting], S
 
 
 _OF_BULLET = ("group", "mask", "concave")
-"""Attributes of ``<collision>`` of URDF by which PyBullet decides what touches what."""
+"""Attributes of ``<collision>`` of URDF that only PyBullet reads: they filter contacts."""
 
 
 def list_bullet_attributes(robot: Robot) -> Iterator[tuple[str, str]]:

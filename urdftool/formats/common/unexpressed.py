@@ -187,8 +187,8 @@ def list_link_exclusions(robot: Robot, written: Written) -> Iterator[ContactExcl
         if {pair.link, pair.other} <= robot.link.keys():
             yield pair
             continue
-        text = f"the excluded contact of '{pair.link}' and '{pair.other}', of which one is no link"
-        text += ", is dropped"
+        text = f"the excluded contact of '{pair.link}' and '{pair.other}' is dropped: it is one of "
+        text += "a link with the scenery"
         name = pair.link if pair.link in robot.link else pair.other
         written.report_loss("exclusion", text, pair.place, kind="link", name=name)
 

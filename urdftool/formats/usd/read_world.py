@@ -10,7 +10,7 @@ from ...model.settings import Settings, Value
 from .read_stage import Context, convert_float
 
 _EARTH = 9.81
-"""Gravity [m/s²] that the schema's default means: "earth gravity", in a unit of the stage."""
+"""Gravity [m/s²] by default: UsdPhysics says "earth gravity" without a number; chosen."""
 
 
 def read_world(context: Context) -> Settings:

@@ -69,7 +69,7 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
         named = misplaced[0] if misplaced else contact.one
         yield Fault(
             "interpenetration",
-            _rate(fails, joined),
+            _get_severity(fails, joined),
             f"links '{contact.one}' and '{contact.other}' interpenetrate by {depth:.3g} m {when}",
             (robot.link[named].collisions[0] if misplaced else robot.link[named]).place,
             "link",
@@ -85,8 +85,8 @@ def check_interpenetration(robot: Robot, run: Run) -> Iterator[Fault]:
         )
 
 
-def _rate(fails: bool, joined: bool) -> Severity:
-    """Rate an interpenetration; that of two joined links moves nothing: engines ignore it."""
+def _get_severity(fails: bool, joined: bool) -> Severity:
+    """Return the severity of an overlap; that of joined links moves nothing: engines ignore it."""
     if not fails:
         return Severity.INFO
     return Severity.WARNING if joined else Severity.ERROR
