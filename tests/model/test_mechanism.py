@@ -134,7 +134,7 @@ def test_an_export_reports_what_it_does_not_write(name, options, tmp_path):
     plain.joints[0].dynamics = Dynamics(armature=0.1)
     written = registry.format_named(name).write(replace(plain, **EXTRA), options)
     codes = {loss.code for loss in written.losses}
-    assert codes >= (CODES if name == "sdf" else CODES - WRITTEN)
+    assert codes >= CODES - (WRITTEN if name == "mjcf" else {"lossy-frame"})
     assert ("lossy-joint-armature" in codes) == (name == "sdf")  # MJCF has it
     if name != "sdf":
         return

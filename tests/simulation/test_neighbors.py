@@ -56,7 +56,7 @@ def joined(verdict):
     return {
         fault.name
         for fault in verdict.faults
-        if fault.code == "interpenetration" and fault.fails and "collision of '" in fault.cause
+        if fault.code == "interpenetration" and fault.is_warning and "collision of '" in fault.cause
     }
 
 
