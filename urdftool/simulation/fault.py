@@ -66,7 +66,7 @@ class Fault(Diagnostic):
 
     @property
     def is_warning(self) -> bool:
-        """Tell whether it concerns what the file says, such as masses; it fails with ``--strict``."""
+        """Tell whether it concerns what the file says; it fails with ``--strict``."""
         return self.severity is Severity.WARNING
 
     @property
