@@ -120,6 +120,8 @@ class Divider:
 
     def _is_hopeless(self, budget: int) -> bool:
         """Tell whether the proof would need far more boxes than its budget at the same pace."""
+        if not len(self.lower):
+            return True
         if self.boxes < self.check:
             return False
         self.check *= 2
@@ -192,6 +194,8 @@ class Divider:
             return boxes.choose(np.zeros(0, dtype=np.int64), candidates)
         kept, c = _number_boxes(candidates)
         boxes, share = boxes.choose(kept, c), share[kept]
+        if not len(self.lower):
+            return boxes  # nothing moves: it stays undecided
         rows = np.arange(len(boxes))
         column = share.argmax(axis=1)
         halves = boxes.halves.copy()

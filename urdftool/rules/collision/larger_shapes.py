@@ -79,6 +79,12 @@ _BEYOND = 0.1
 """Part of its length by which geometry may be longer than visuals. Chosen, no source."""
 
 
+SPANNED = 4.0
+"""Geometry that spans the visuals of moved links is at most so many times as long as the visual of
+its own link. Chosen, no source.
+"""
+
+
 def is_inside(box: Bounds, around: Bounds, axis: int) -> bool:
     """Tell whether a bounding box is inside of another one along an axis."""
     slack = _BEYOND * box.size[axis]

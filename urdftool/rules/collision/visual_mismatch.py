@@ -30,6 +30,7 @@ from ..shape_changes import copy_origin, set_in_origin
 from ..words import join_some
 from .displaced import find_displaced
 from .larger_shapes import (
+    SPANNED,
     find_longer_axis,
     is_ball_around,
     is_ball_of_wheel,
@@ -249,7 +250,7 @@ def collision_much_larger_than_visual(
         if is_composed(link) or is_ball_around(robot, link, around):
             continue
         moved = join_moved_visuals(robot, reach, link, around)
-        if is_inside(collision_box, moved, axis):
+        if a <= SPANNED * b and is_inside(collision_box, moved, axis):
             continue
         yield Problem(
             link,

@@ -45,7 +45,6 @@ _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
     },
     group="robot",
     formats=ANY_FORMAT,
-    infos=False,
 )
 def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A rigid body has mass 0, or a link of mass 0 has an inertia.

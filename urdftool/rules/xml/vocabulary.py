@@ -110,6 +110,13 @@ _RARE = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
 """Rarely used attributes, by element."""
 
 
+_UNITS = ("unit", "units")
+"""Attributes by which somebody means other units than m, kg, s and rad, which no reader has."""
+
+_BLOCKS = ("gazebo", "transmission", "ros2_control")
+"""Elements of Gazebo and ROS in ``<robot>``; a misspelled one is a warning."""
+
+
 @rule(
     WARNING,
     effects={
@@ -126,7 +133,8 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     Readers ignore unknown elements without a message. With a misspelled ``<colision>`` the link
     falls through the ground; with an ``<inertia>`` outside ``<inertial>`` it has no mass. SDF
     elements in a URDF are ignored too. An element that is not similar to any of URDF may be for a
-    different program; it is an info, and so is a misspelled ``<origin>`` of zeros. A
+    different program; it is an info, and so is a misspelled ``<origin>`` of zeros. A misspelled
+    ``<gazebo>``, ``<transmission>`` or ``<ros2_control>`` is a warning. A
     ``<material>`` in a ``<collision>`` is not reported: a collision has no color, and nothing is
     lost. ``<collision_checking>`` is an extension of pinocchio; it is reported if it names a shape
     that is not the name of a ``<collision>`` of the link.
@@ -151,7 +159,11 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             continue
         word = suggest_word(element.tag, VOCABULARY[parent.tag].children)
         instead = ELEMENT_REMEDIES.get((parent.tag, element.tag))
-        if word is None and not instead:
+        block = suggest_word(element.tag, _BLOCKS) if parent.tag == "robot" and not word else None
+        if block is not None and not instead:
+            what = f"{_describe(parent)} has the unknown element <{element.tag}>; write <{block}>"
+            yield Problem(element, what, alike=(file, "block", element.tag))
+        elif word is None and not instead:
             other.setdefault((parent.tag, element.tag), []).append(element)
         elif instead:
             what = f"<{element.tag}> does not belong in {_describe(parent)}; {instead}"
@@ -245,7 +257,8 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     misspelled ``uper`` makes the upper limit 0, and a cylinder with ``height`` has no length. An
     unknown attribute whose value is 0 is not reported, because it has no effect. An attribute for a
     different program is an info if the element has all required attributes, such as an additional
-    parameter of a ``<dynamics>`` or a ``<limit>``.
+    parameter of a ``<dynamics>`` or a ``<limit>``. An attribute that names units is a warning:
+    numbers are in m, kg, s and rad.
     """
     nothing: frozenset[str] = frozenset()
     other: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
@@ -287,6 +300,8 @@ def _is_ignorable(element: Element, name: str) -> bool:
     """Tell whether readers lose nothing if they ignore an attribute."""
     if name in _DOCUMENTATION:
         return True
+    if name in _UNITS:
+        return False
     tag = element.tag
     optional = (*_WITH_DEFAULT.get(tag, ()), *_RARE.get(tag, ()))
     needed = set(get_attributes(tag)).difference(optional)
