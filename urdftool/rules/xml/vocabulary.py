@@ -111,7 +111,7 @@ _RARE = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
 
 
 _UNITS = ("unit", "units")
-"""Attributes by which somebody means other units than m, kg, s and rad, which no reader has."""
+"""Attributes that name other units than m, kg, s and rad; no reader reads them."""
 
 _BLOCKS = ("gazebo", "transmission", "ros2_control")
 """Elements of Gazebo and ROS in ``<robot>``; a misspelled one is a warning."""
