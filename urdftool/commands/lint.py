@@ -47,7 +47,7 @@ _GROUPS = {
     "--extend-select",
     multiple=True,
     metavar="RULES",
-    help="Check these rules in addition to the default ones; 'pedantic' adds all that are off.",
+    help="Check these rules in addition to the default ones.",
 )
 @click.option("--ignore", multiple=True, metavar="RULES", help="Skip these rules.")
 @click.option(
