@@ -29,6 +29,7 @@ from ..model.elements import (
     SafetyController,
 )
 from ..model.settings import Settings
+from ..model.urdf_schema import BLOCKS
 from ..source.document import Element
 from .bodies import HINGES, compute_axis
 from .correspondence import PLANES, Correspondence, FrameMove, JointValue
@@ -154,12 +155,9 @@ def _drop_blocks(root: Element, links: set[str], joints: set[str]) -> Element:
             made.children.append(part)
             continue
         is_gone = bool(cut) or (block.tag == "gazebo" and block.get("reference") in links | joints)
-        if block.tag not in _BLOCKS or not is_gone:
+        if block.tag not in BLOCKS or not is_gone:
             made.children.append(block)
     return made
-
-
-_BLOCKS = ("gazebo", "transmission", "ros2_control")
 
 
 def take_root(robot: Robot, name: str) -> Robot:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
+from collections.abc import Iterator, Mapping
 
 from ..model.elements import Robot
 from ..model.mechanism import NativeElement
 from ..model.read import number
-from ..model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
+from ..model.urdf_schema import BLOCKS, VOCABULARY
 from ..source.document import Element
 from .difference import Difference, describe_change, describe_presence
 from .rows import BLOCKS as ROW
@@ -17,56 +16,7 @@ from .tolerance import close
 
 Content = Element | NativeElement
 Flat = dict[str, tuple[str, Content]]
-BLOCKS = ("transmission", "gazebo", "ros2_control")
-"""Tags of the blocks."""
 _NAMING = ("name", "reference", "filename", "type")
-
-
-class _Compared(NamedTuple):
-    """What of an element of URDF is compared by its values."""
-
-    children: frozenset[str] = frozenset()
-    attributes: frozenset[str] = frozenset()
-
-
-def _make_compared(children: str, attributes: Iterable[str] = ()) -> _Compared:
-    return _Compared(frozenset(children.split()), frozenset(attributes))
-
-
-_COMPARED = {
-    "robot": _make_compared("link joint material"),
-    "link": _make_compared("inertial visual collision", ("name",)),
-    "inertial": _make_compared("origin mass inertia"),
-    "mass": _make_compared("", ("value",)),
-    "inertia": _make_compared("", ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
-    "visual": _make_compared("origin geometry material", ("name",)),
-    "collision": _make_compared("origin geometry", ("name",)),
-    "origin": _make_compared("", ("xyz", "rpy", "quat_xyzw")),
-    "geometry": _make_compared("box cylinder sphere capsule mesh"),
-    "box": _make_compared("", ("size",)),
-    "cylinder": _make_compared("", ("radius", "length")),
-    "sphere": _make_compared("", ("radius",)),
-    "capsule": _make_compared("", ("radius", "length")),
-    "mesh": _make_compared("", ("filename", "scale")),
-    "material": _make_compared("color texture", ("name",)),
-    "color": _make_compared("", ("rgba",)),
-    "texture": _make_compared("", ("filename",)),
-    "joint": _make_compared(
-        "parent child origin axis limit dynamics mimic safety_controller calibration",
-        ("name", "type"),
-    ),
-    "parent": _make_compared("", ("link",)),
-    "child": _make_compared("", ("link",)),
-    "axis": _make_compared("", ("xyz",)),
-    "limit": _make_compared("", LIMIT_NAMES),
-    "dynamics": _make_compared("", RESISTANCE_OF_URDF),
-    "mimic": _make_compared("", ("joint", "multiplier", "offset")),
-    "safety_controller": _make_compared(
-        "", ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
-    ),
-    "calibration": _make_compared("", ("rising", "falling", "reference_position")),
-}
-"""Elements of URDF that are compared by their values; all else is compared as it is written."""
 
 
 def compare_extensions(
@@ -89,7 +39,7 @@ def list_block_tags(*robots: Robot) -> list[str]:
     roots = [robot.xml for robot in robots if robot.xml is not None]
     others = (child.tag for root in roots for child in root.children)
     return [
-        tag for tag in dict.fromkeys((*BLOCKS, *others)) if tag not in _COMPARED["robot"].children
+        tag for tag in dict.fromkeys((*BLOCKS, *others)) if tag not in VOCABULARY["robot"].children
     ]
 
 
@@ -105,12 +55,12 @@ def _flatten_others(robot: Robot, renamed: Mapping[str, str], kind: str) -> dict
 
 def _flatten_rest(element: Element, above: str, found: Flat, renamed: Mapping[str, str]) -> None:
     """Add the attributes and elements in an element that are not compared by their values."""
-    compared, counts = _COMPARED[element.tag], Counter[str]()
+    known, counts = VOCABULARY[element.tag], Counter[str]()
     for name, value in element.attributes.items():
-        if name not in compared.attributes and not name.startswith("xmlns"):
+        if name not in known.held and not name.startswith("xmlns"):
             found[f"{above}@{name}"] = " ".join(value.split()), element
     for child in element.children:
-        if child.tag not in compared.children:
+        if child.tag not in known.children:
             _flatten(child, above, found, renamed)
             continue
         counts[child.tag] += 1

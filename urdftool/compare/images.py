@@ -11,10 +11,10 @@ import numpy as np
 from ..errors import ConfigError
 from ..mechanics.reference import Array, Mechanics, get_origin_matrix
 from ..model.elements import Joint, Robot
+from ..model.urdf_schema import BLOCKS
 from ..source.document import Element
 from .conventions import make_origin, mirror_joint, mirror_link
 from .correspondence import PLANES, Image
-from .extensions import BLOCKS
 from .frames import invert
 
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from ..model.urdf_schema import BLOCKS
 from ..rules.renaming import list_joint_references, list_link_references
 from ..source.document import Element
 from ..source.location import Place
@@ -37,9 +38,6 @@ def list_gazebo_blocks(draft: Draft, reference: str) -> list[Element]:
     """Return the ``<gazebo>`` elements about a link or joint; those about the robot for ''."""
     blocks = draft.root.list_children("gazebo")
     return [block for block in blocks if (block.get("reference") or "") == reference]
-
-
-_BLOCKS = ("gazebo", "transmission", "ros2_control")
 
 
 def list_others(root: Element) -> Iterator[Element]:
@@ -84,7 +82,7 @@ def list_changes(root: Element, names: Names) -> list[NameChange]:
 def _list_block_changes(root: Element, names: Names) -> Iterator[NameChange]:
     """Yield attributes and texts of blocks for simulators that are the name of a link or joint."""
     new = {**names.joints, **names.links}
-    for element in (e for block in root.children if block.tag in _BLOCKS for e in block.walk()):
+    for element in (e for block in root.children if block.tag in BLOCKS for e in block.walk()):
         for attribute, value in element.attributes.items():
             if value in new:
                 yield NameChange(element, attribute, new[value])
@@ -112,7 +110,7 @@ def report_text(draft: Draft, name: str, why: str, *, has_positions: bool = Fals
         return
     word = re.compile(rf"(?<![\w-]){re.escape(name)}(?![\w-])")
     for block in draft.root.children:
-        if block.tag not in _BLOCKS:
+        if block.tag not in BLOCKS:
             continue
         for element in block.walk():
             for place in _find_word(draft, element, word):
@@ -125,7 +123,7 @@ def report_file_names(draft: Draft, names: Iterable[str]) -> None:
     """List the plugins that read a file of which an edited copy is written."""
     known = set(names)
     for block in draft.root.children:
-        if block.tag not in _BLOCKS:
+        if block.tag not in BLOCKS:
             continue
         for element in block.walk():
             name = element.text.strip().replace("\\", "/").rpartition("/")[2]
@@ -165,7 +163,7 @@ def list_names_in_text(
         return
     word = re.compile(rf"(?<![\w-])({'|'.join(map(re.escape, known))})(?![\w-])")
     for block in draft.root.children:
-        if block.tag not in _BLOCKS or block in skipped:
+        if block.tag not in BLOCKS or block in skipped:
             continue
         for element in _list_kept(draft, block):
             for place in _find_word(draft, element, word):

@@ -27,6 +27,7 @@ from .settings import (
     get_text,
     parse,
 )
+from .urdf_schema import DIALECT_ATTRIBUTES
 
 
 @dataclass(slots=True)
@@ -90,16 +91,13 @@ def list_settings(robot: Robot) -> Iterator[tuple[str, str, Sequence[Setting], S
         yield "joint", joint.name, ALL_OF_JOINTS, joint.settings
 
 
-_OF_BULLET = ("group", "mask", "concave")
-"""Attributes of ``<collision>`` of URDF that only PyBullet reads: they filter contacts."""
-
-
 def list_bullet_attributes(robot: Robot) -> Iterator[tuple[str, str]]:
     """Yield the attributes of collisions that only PyBullet reads, with their links."""
+    names = DIALECT_ATTRIBUTES["collision"]
     for link in robot.links if robot.format == "urdf" else ():
         for collision in link.collisions:
             if collision.xml is not None:
-                yield from ((n, link.name) for n in _OF_BULLET if n in collision.xml.attributes)
+                yield from ((n, link.name) for n in collision.xml.attributes if n in names)
 
 
 def read_sdf_settings(

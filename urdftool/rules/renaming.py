@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from ..diagnostic import Severity
 from ..model.elements import Joint, Link, Robot
 from ..model.references import has_block
+from ..model.urdf_schema import BLOCKS
 from ..source.document import Element
 from .fix import Change, FixContext, Proposal, set_attribute, set_text, unsafe
 from .rule import Problem
@@ -105,7 +106,7 @@ def list_names_in_blocks(robot: Robot, joint: Joint) -> list[tuple[str, str]]:
         return []
     found = []
     for block in robot.element.children:
-        if block.tag in ("gazebo", "transmission", "ros2_control"):
+        if block.tag in BLOCKS:
             for element, attribute in find_joint_references(block, joint.name):
                 found.append((joint.name, attribute or element.tag))
             for element, attribute in find_link_references(block, joint.child):

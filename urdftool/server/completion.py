@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from ..errors import UrdftoolError
 from ..model.elements import JOINT_TYPES
 from ..model.mesh_formats import READ_BY
-from ..rules.xml.vocabulary_table import DIALECTS, VOCABULARY
+from ..model.urdf_schema import DIALECTS, VOCABULARY
 from ..source.packages import Packages, find_own_package
 from ..source.safe_builtins import MATH
 from .cursor import Cursor, find_cursor

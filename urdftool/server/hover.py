@@ -8,7 +8,7 @@ from typing import Any
 
 from ..listing import list_first
 from ..model.elements import Joint, Link, Robot
-from ..rules.xml.vocabulary_table import VOCABULARY
+from ..model.urdf_schema import VOCABULARY
 from ..source.document import Element
 from ..source.location import Call
 from .actions import find_innermost

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from typing import Literal, NamedTuple
 
+from ..model.urdf_schema import BLOCKS
 from ..rules.moveit.semantic import find_references
 from ..rules.renaming import list_joint_references, list_link_references
 from ..source.document import Document, Element
@@ -27,7 +28,6 @@ BUILT_IN = frozenset(
 )
 """Elements of xacro that are not calls of macros."""
 
-BLOCKS = ("gazebo", "transmission", "ros2_control")
 _FILES = (f"{XACRO}include", "include", "mesh", "texture")
 _PIECE = re.compile(rb"\$\$+[{(]|\$\{(?P<expression>[^}]*)\}|\$\((?P<extension>[^)]*)\)")
 _EXTENSION = re.compile(rb"\$\(([^)]*)\)")

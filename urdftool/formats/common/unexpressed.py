@@ -16,6 +16,7 @@ from ...model.native import LOOP, OTHER_TAGS
 from ...model.part import Part
 from ...model.read_settings import list_settings
 from ...model.settings import LOST_SETTINGS, LUMPING_TAGS, SPRING, TUNING, Setting, Settings
+from ...model.urdf_schema import BLOCKS, VOCABULARY
 from ...model.world_settings import describe_setting, list_changed, list_decided
 from ...source.document import Element
 from ...source.location import Place
@@ -47,7 +48,7 @@ class _Kind(NamedTuple):
     settings: tuple[str, ...] = ()
 
 
-_OF_URDF = ("link", "joint", "material", "gazebo", "transmission", "ros2_control")
+_OF_URDF = (*VOCABULARY["robot"].children, *BLOCKS)
 """Elements below ``<robot>`` that the model holds, or that each writer reports itself."""
 
 _IN_BLOCKS = ("closure", "camera", "sensor", "plugin", "light")

@@ -9,6 +9,7 @@ from ...model.bounds import has_extent
 from ...model.elements import Collision, Geometry, Link, Robot, UnknownShape, Visual
 from ...model.millimeters import find_shapes_in_millimeters
 from ...model.read import number, parse_numbers
+from ...model.urdf_schema import VOCABULARY
 from ...suggestions import find_nearest
 from ..fix import (
     FixContext,
@@ -23,7 +24,6 @@ from ..fix import (
 from ..mujoco import keeps_visuals
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..xml.from_sdf import move_out_of_geometry
-from ..xml.vocabulary_table import VOCABULARY
 
 _SILENT = "urdfdom, gz, gazebo-classic, pybullet, pinocchio"
 _SIZES = {

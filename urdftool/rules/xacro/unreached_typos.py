@@ -10,11 +10,12 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from ...model.elements import JOINT_TYPES
+from ...model.urdf_schema import BLOCKS, DIALECT_ATTRIBUTES, VOCABULARY
 from ...source.description import Description
 from ...source.document import Document, Element
 from ...source.location import Place
 from ..rule import ERROR, Problem, rule
-from ..xml.vocabulary_table import DIALECT_ATTRIBUTES, VOCABULARY, get_attributes, suggest_word
+from ..xml.vocabulary_table import suggest_word
 from .definitions import get_macro_names
 
 _EXPRESSION = re.compile(r"(?<!\$)(?:\$\$)*\$\{([^}]+)\}")
@@ -27,7 +28,7 @@ _TAGS = {
 }
 """Tags of xacro, each with an attribute that it requires."""
 
-_NOT_URDF = ("ros2_control", "transmission", "gazebo", "xacro:property")
+_NOT_URDF = (*BLOCKS, "xacro:property")
 """Elements whose content is not that of links and joints of URDF, or may be of any of them."""
 
 
@@ -145,7 +146,7 @@ def _find_bad_names(element: Element) -> Iterator[_Typo]:
             message = f"<{parent}> has the unknown element <{element.tag}>; write <{word}>"
             yield _Typo(element, element, message)
         return
-    names = get_attributes(element.tag)
+    names = VOCABULARY[element.tag].attributes
     free = [name for name in names if name not in element.attributes]
     for name in element.attributes.keys() - {*names, *DIALECT_ATTRIBUTES.get(element.tag, ())}:
         word = suggest_word(name, free)

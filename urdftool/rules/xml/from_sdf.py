@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ...model.read import number, parse_numbers
 from ...model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
+from ...model.urdf_schema import VOCABULARY
 from ...source.document import Element
 from ..fix import (
     Change,
@@ -20,7 +21,6 @@ from ..fix import (
     set_attribute,
     unsafe,
 )
-from .vocabulary_table import VOCABULARY
 
 _AS_ATTRIBUTE = {
     "box": {"size": "size"},

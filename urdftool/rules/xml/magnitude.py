@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...model.read import parse_numbers
+from ...model.urdf_schema import VOCABULARY
 from ..rule import ERROR, Problem, rule
 from ..words import split_words
-from .vocabulary_table import VOCABULARY
 
 _MEASURED = split_words("origin mass inertia box cylinder capsule sphere mesh color axis mimic")
 """Elements with measured numbers; a limit may have any value."""

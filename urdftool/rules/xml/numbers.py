@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from ...model.elements import Robot
 from ...model.read import number, parse_numbers
+from ...model.urdf_schema import VOCABULARY
 from ...source.description import Description
 from ...source.document import Element
 from ...source.tags import locate_value
@@ -16,7 +17,7 @@ from ..rule import BOTH, ERROR, UNSAFE, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
 from .ignored_attributes import select_read_effects
 from .owner import describe_owner
-from .vocabulary_table import VOCABULARY, get_census
+from .vocabulary_table import get_census
 
 _VECTORS = {
     tag: tuple((name, count) for name, count in kind.numbers.items() if count > 1)

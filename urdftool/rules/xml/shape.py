@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...model.elements import Collision, Link, Robot, Visual
+from ...model.urdf_schema import VOCABULARY
 from ...source.document import Element
 from ..fix import (
     Change,
@@ -21,12 +22,7 @@ from ..fix import (
 from ..mujoco import keeps_visuals
 from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, rule
 from .owner import describe_owner
-from .vocabulary_table import (
-    VOCABULARY,
-    find_misspelled_attributes,
-    find_misspelled_children,
-    get_census,
-)
+from .vocabulary_table import find_misspelled_attributes, find_misspelled_children, get_census
 
 
 @rule(

@@ -8,6 +8,7 @@ from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
 from ...model.read import number, parse_numbers
 from ...model.settings import RESISTANCE_OF_URDF
+from ...model.urdf_schema import BLOCKS, DIALECT_ATTRIBUTES, VOCABULARY
 from ...source.description import Description
 from ...source.document import Element
 from ..fix import (
@@ -25,14 +26,7 @@ from ..rule import BOTH, ERROR, INFO, WARNING, Problem, rule, select_holding
 from ..xacro.definitions import get_macro_names
 from .from_sdf import propose_urdf_spelling
 from .owner import describe_owner
-from .vocabulary_table import (
-    DIALECT_ATTRIBUTES,
-    ELEMENT_REMEDIES,
-    VOCABULARY,
-    get_attributes,
-    get_census,
-    suggest_word,
-)
+from .vocabulary_table import ELEMENT_REMEDIES, get_census, suggest_word
 
 _HARMLESS = frozenset((("collision", "material"),))
 """Elements that readers ignore without a loss. They are not reported."""
@@ -106,15 +100,9 @@ _WITH_DEFAULT = {
 _OF_FRANKA = frozenset(("D", "K", "mu_coulomb", "mu_viscous"))
 """Attributes of ``<dynamics>`` in franka_description, next to those of URDF."""
 
-_RARE = {"limit": ("acceleration", "deceleration", "jerk"), "link": ("type",)}
-"""Rarely used attributes, by element."""
-
 
 _UNITS = ("unit", "units")
 """Attributes that name other units than m, kg, s and rad; no reader reads them."""
-
-_BLOCKS = ("gazebo", "transmission", "ros2_control")
-"""Elements of Gazebo and ROS in ``<robot>``; a misspelled one is a warning."""
 
 
 @rule(
@@ -159,7 +147,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             continue
         word = suggest_word(element.tag, VOCABULARY[parent.tag].children)
         instead = ELEMENT_REMEDIES.get((parent.tag, element.tag))
-        block = suggest_word(element.tag, _BLOCKS) if parent.tag == "robot" and not word else None
+        block = suggest_word(element.tag, BLOCKS) if parent.tag == "robot" and not word else None
         if block is not None and not instead:
             what = f"{_describe(parent)} has the unknown element <{element.tag}>; write <{block}>"
             yield Problem(element, what, alike=(file, "block", element.tag))
@@ -263,7 +251,7 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     nothing: frozenset[str] = frozenset()
     other: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
     for tag, elements in get_census(robot).known.items():
-        known = {*get_attributes(tag), *DIALECT_ATTRIBUTES.get(tag, nothing)}
+        known = {*VOCABULARY[tag].attributes, *DIALECT_ATTRIBUTES.get(tag, nothing)}
         for element in elements:
             if element.attributes.keys() <= known:
                 continue
@@ -303,8 +291,8 @@ def _is_ignorable(element: Element, name: str) -> bool:
     if name in _UNITS:
         return False
     tag = element.tag
-    optional = (*_WITH_DEFAULT.get(tag, ()), *_RARE.get(tag, ()))
-    needed = set(get_attributes(tag)).difference(optional)
+    optional = (*_WITH_DEFAULT.get(tag, ()), *VOCABULARY[tag].unread)
+    needed = set(VOCABULARY[tag].attributes).difference(optional)
     return bool(needed) and needed <= element.attributes.keys()
 
 
@@ -333,7 +321,7 @@ def _is_unsuggested(element: Element, name: str) -> bool:
 
 def _suggest_attribute(element: Element, name: str) -> str | None:
     return suggest_word(
-        name, [w for w in get_attributes(element.tag) if w not in element.attributes]
+        name, [w for w in VOCABULARY[element.tag].attributes if w not in element.attributes]
     )
 
 
@@ -372,7 +360,7 @@ def write_known_attribute(problem: Problem, context: FixContext) -> Proposal | N
     element, name = found
     if (element.tag, name) == ("axis", "rpy"):
         return safe("remove it: an axis has no rotation", remove_attribute(element, name))
-    free = [word for word in get_attributes(element.tag) if word not in element.attributes]
+    free = [word for word in VOCABULARY[element.tag].attributes if word not in element.attributes]
     direct = {"pos", "position", "rot", "rotation", "orientation", "mass", "min", "max", "height"}
     direct |= {"dimensions", "uri", "file", "url", "name", "value"}
     word: str | None = problem.data.get("write")
@@ -412,7 +400,7 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
             what = f"{_describe(parent)} has the unknown element <{element.tag}>; write <{lower}>"
             yield Problem(element, what)
     for tag, elements in get_census(robot).known.items():
-        known = set(get_attributes(tag))
+        known = set(VOCABULARY[tag].attributes)
         for element in elements:
             if element.attributes.keys() <= known:
                 continue

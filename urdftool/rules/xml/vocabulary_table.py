@@ -1,4 +1,4 @@
-"""Elements of URDF, with their attributes and children, and the types of attributes."""
+"""Misplaced and misspelled elements of URDF, and those of a robot by their tags."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from ...model.elements import Robot
-from ...model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
+from ...model.urdf_schema import DIALECTS, VOCABULARY
 from ...source.document import Element
 
 ELEMENT_REMEDIES = {
@@ -68,125 +68,6 @@ ELEMENT_REMEDIES = {
 """Remedy for a misplaced element, by parent and tag."""
 
 
-class ElementType(NamedTuple):
-    """An element of URDF.
-
-    Attributes:
-        children: Tags of the elements that it may contain.
-        numbers: Count of numbers in each numeric attribute.
-        words: The other attributes.
-        many: Children that may be repeated; of others readers take the first.
-    """
-
-    children: tuple[str, ...] = ()
-    numbers: dict[str, int] = {}  # noqa: RUF012 -- a tuple's default, never changed
-    words: tuple[str, ...] = ()
-    many: tuple[str, ...] = ()
-
-
-def _count_one(*names: str) -> dict[str, int]:
-    return dict.fromkeys(names, 1)
-
-
-VOCABULARY: dict[str, ElementType] = {
-    "robot": ElementType(("link", "joint", "material"), words=("name", "version")),
-    "link": ElementType(
-        ("inertial", "visual", "collision"),
-        words=("name", "type"),
-        many=("visual", "collision"),
-    ),
-    "inertial": ElementType(("origin", "mass", "inertia")),
-    "mass": ElementType(numbers=_count_one("value")),
-    "inertia": ElementType(numbers=_count_one("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
-    "visual": ElementType(("origin", "geometry", "material"), words=("name",)),
-    "collision": ElementType(("origin", "geometry"), words=("name",)),
-    "origin": ElementType(numbers={"xyz": 3, "rpy": 3, "quat_xyzw": 4}),
-    "geometry": ElementType(("box", "cylinder", "sphere", "mesh", "capsule"), words=("name",)),
-    "box": ElementType(numbers={"size": 3}),
-    "cylinder": ElementType(numbers=_count_one("radius", "length")),
-    "sphere": ElementType(numbers=_count_one("radius")),
-    "capsule": ElementType(numbers=_count_one("radius", "length")),
-    "mesh": ElementType(numbers={"scale": 3}, words=("filename",)),
-    "material": ElementType(("color", "texture"), words=("name",)),
-    "color": ElementType(numbers={"rgba": 4}),
-    "texture": ElementType(words=("filename",)),
-    "joint": ElementType(
-        (
-            "origin",
-            "parent",
-            "child",
-            "axis",
-            "limit",
-            "dynamics",
-            "mimic",
-            "safety_controller",
-            "calibration",
-        ),
-        words=("name", "type"),
-    ),
-    "parent": ElementType(words=("link",)),
-    "child": ElementType(words=("link",)),
-    "axis": ElementType(numbers={"xyz": 3}),
-    "limit": ElementType(numbers=_count_one(*LIMIT_NAMES, "acceleration", "deceleration", "jerk")),
-    "dynamics": ElementType(numbers=_count_one(*RESISTANCE_OF_URDF)),
-    "mimic": ElementType(numbers=_count_one("multiplier", "offset"), words=("joint",)),
-    "safety_controller": ElementType(
-        numbers=_count_one("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
-    ),
-    "calibration": ElementType(numbers=_count_one("rising", "falling", "reference_position")),
-}
-
-DIALECTS: dict[str, frozenset[str]] = {
-    "robot": frozenset(
-        (
-            # ROS and Gazebo
-            "gazebo",
-            "transmission",
-            "ros2_control",
-            "sensor",
-            "gripper",
-            # simulators
-            "mujoco",
-            "loop_joint",
-            "frame",
-            "ball_constraint",
-            "linear_bushing_rpy",
-            "linear_spring_damper",
-            "collision_filter_group",
-            "self_collision_checking",
-            "fixed_frame",
-            "isaac_sim_config",
-            "deformable",
-            "reduced_deformable",
-        )
-    ),
-    "link": frozenset(
-        (
-            *("contact", "audio_source", "self_collision_checking", "inertia_scaling"),
-            "collision_checking",  # of pinocchio: names shapes that are capsules, or convex
-        )
-    ),
-    "visual": frozenset(("meta",)),
-    "collision": frozenset(("verbose", "contact_coefficients", "sdf")),
-    "material": frozenset(("specular",)),
-    "geometry": frozenset(("plane", "cdf", "ellipsoid", "cone", "torus", "convex")),
-    "joint": frozenset(("hardwareInterface",)),
-}
-"""Elements that are not in URDF but in a reader's dialect; their contents are not checked."""
-
-DIALECT_ATTRIBUTES: dict[str, frozenset[str]] = {
-    "robot": frozenset(("xmlns",)),
-    "link": frozenset(("concave", "drake_ignore")),
-    "collision": frozenset(("concave", "group", "mask")),
-    "joint": frozenset(("dont_collapse", "drake_ignore")),
-    "limit": frozenset(("twist",)),
-}
-"""Attributes that are not in URDF but in a reader's dialect, by element.
-
-Those of Drake 1.51.1 were run: it leaves out links and joints, but no shapes.
-"""
-
-
 class Census(NamedTuple):
     """The elements of a robot by kind.
 
@@ -245,12 +126,6 @@ def is_for_another_reader(root: Element | None) -> bool:
     )
 
 
-def get_attributes(tag: str) -> tuple[str, ...]:
-    """Get the attributes of a URDF element."""
-    kind = VOCABULARY[tag]
-    return (*kind.words, *kind.numbers)
-
-
 def suggest_word(word: str, words: Iterable[str]) -> str | None:
     """Find the word that a misspelled one stands for; None if none or several are similar.
 
@@ -284,7 +159,7 @@ def _compute_edit_distance(a: str, b: str) -> int:
 
 def find_misspelled_attributes(element: Element) -> dict[str, str]:
     """Find misspelled attributes of an element, with the correct names."""
-    known = get_attributes(element.tag)
+    known = VOCABULARY[element.tag].attributes
     free = [name for name in known if name not in element.attributes]
     strange = [name for name in element.attributes if name not in known and ":" not in name]
     return {name: word for name in strange if (word := suggest_word(name, free))}
