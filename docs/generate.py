@@ -23,7 +23,8 @@ from generator.man import list_man_pages
 from generator.python_page import insert_names
 
 from urdftool import cli
-from urdftool.rules import get_all_rules, get_rule
+from urdftool.rules import FAMILY_OF, get_all_rules, get_rule
+from urdftool.suggestions import find_nearest
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help begins", "<!-- help ends -->"
@@ -90,6 +91,11 @@ def find_stale() -> list[Path]:
 def write_rules(names: list[str]) -> int:
     """Write the pages of some rules and the index of rules; return the exit code."""
     for name in names:
+        if name not in FAMILY_OF:
+            near = find_nearest(name, FAMILY_OF)
+            hint = f"did you mean '{near}'?" if near else "make rule NAME=… FILE=… adds one"
+            print(f"no rule is called '{name}'; {hint}", file=sys.stderr)
+            return 2
         page = DOCS / "rules" / f"{name}.md"
         page.write_text(rule_pages.write_page(get_rule(name)), "utf-8")
         print(f"wrote {page}")

@@ -56,6 +56,16 @@ def test_a_page_of_a_command_has_its_help(page):
     assert generate.BEGIN in page.read_text("utf-8")
 
 
+def test_a_page_of_a_rule_that_does_not_exist_is_refused(capsys):
+    assert generate.write_rules(["nix"]) == 2
+    assert generate.write_rules(["zero_axis"]) == 2
+    err = capsys.readouterr().err
+    assert err == (
+        "no rule is called 'nix'; make rule NAME=… FILE=… adds one\n"
+        "no rule is called 'zero_axis'; did you mean 'zero-axis'?\n"
+    )
+
+
 def test_every_command_has_a_page():
     for name in generate.cli.COMMANDS:
         assert (ROOT / "docs" / "commands" / f"{name}.md").exists(), name

@@ -40,6 +40,7 @@ REJECTIONS = ROOT / "urdftool" / "rules" / "effect_rejections.json"
 PACKAGED = ROOT / "urdftool" / "rules" / "effect_sources.json"
 
 AS_WRITTEN = "as written:"
+LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ def rows() -> tuple[Row, ...]:
 
 
 def _rows_of(path: Path) -> Iterator[Row]:
-    for rule, effects in (yaml.safe_load(path.read_text("utf-8")) or {}).items():
+    for rule, effects in (yaml.load(path.read_text("utf-8"), LOADER) or {}).items():
         for key, row in effects.items():
             unknown = set(row) - {"says", "runs", "sources", "rejects"}
             if unknown:
