@@ -25,11 +25,17 @@ START = "its start in MuJoCo"
 
 
 def check_read_back(
-    robot: Robot, positions: Mapping[str, float], timestep: float | None, losses: Iterable[Finding]
+    robot: Robot,
+    positions: Mapping[str, float],
+    timestep: float | None,
+    losses: Iterable[Finding],
+    *,
+    self_collides: bool,
 ) -> Check:
     """Step a robot that was read back, and describe how it moves.
 
-    Positions are those of the start [rad or m]; gains were chosen for the time step [s].
+    Positions are those of the start [rad or m]; gains were chosen for the time step [s]. Links
+    collide with each other only with ``self_collides``.
 
     Returns:
         The row ``runs``; not compared if MuJoCo is not installed, or the robot is not an MJCF.
@@ -46,7 +52,9 @@ def check_read_back(
         with TemporaryDirectory(prefix="urdftool-") as folder:
             path = Path(folder) / "robot.xml"
             write_export(path, written, single=True)
-            return check_runs(path, declared, excluded=True, start=START)
+            return check_runs(
+                path, declared, excluded=True, start=START, self_collides=self_collides
+            )
     except UrdftoolError as error:
         check.skipped = f"not stepped: {error.message}"
         return check

@@ -224,3 +224,40 @@ size="0.05 0.01" quat="1 1 0 0" mass="0.1"/></body>"""
     )
     path.write_text(text)
     assert not [one for one in runs(path).announced if "sag" in one]
+
+
+CROSSED = """<mujoco><compiler angle="radian"/><worldbody>
+<body name="base" pos="0 0 1">{root}<geom size="0.05"/>{bodies}</body></worldbody>
+<actuator>{servos}</actuator>{mimic}</mujoco>"""
+
+
+def cross(folder, root="", mimic=""):
+    """Write two pendulums with limits, whose bobs are at one place."""
+    bob = '<joint name="{0}" axis="0 1 0" range="-0.1 0.1"/><geom pos="0 0 -0.2" size="0.05"/>'
+    bodies = "".join(f'<body pos="{x} 0 -0.1">{bob.format(n)}</body>' for n, x in BOBS.items())
+    servos = "".join(f'<position joint="{n}" kp="2" dampratio="1"/>' for n in BOBS)
+    path = folder / "model.xml"
+    path.write_text(CROSSED.format(root=root, bodies=bodies, servos=servos, mimic=mimic))
+    return path
+
+
+BOBS = {"a": 0.01, "b": -0.01}
+
+
+@pytest.mark.parametrize("collides", [True, False])
+def test_links_that_do_not_collide_with_each_other_are_not_pushed_apart(tmp_path, collides):
+    path, declared = cross(tmp_path), DeclaredLosses(frozenset())
+    check = check_runs(path, declared, excluded=True, self_collides=collides)
+    assert check.verdict == ("differs" if collides else "equal")
+
+
+def test_links_that_do_not_collide_with_each_other_rest_on_the_floor(tmp_path):
+    path, declared = make(tmp_path, servos=True), DeclaredLosses(frozenset())
+    assert check_runs(path, declared, excluded=True, self_collides=False).verdict == "equal"
+
+
+def test_a_joint_that_follows_is_carried_as_the_one_that_it_follows(tmp_path):
+    mimic = '<equality><joint joint1="a" joint2="b" polycoef="0 -1 0 0 0"/></equality>'
+    check = runs(cross(tmp_path, "<freejoint/>", mimic))
+    assert not check.differing
+    assert [text for text in check.announced if "joint 'a' leaves its limits" in text]

@@ -177,6 +177,31 @@ def test_the_stage_is_stepped_as_it_was_read_back(write):
     assert any(text.startswith("falls: the base moves") for text in fallen.announced)
 
 
+BOB = '<collision><origin xyz="0 0 -0.2"/><geometry><sphere radius="0.05"/></geometry></collision>'
+CROSSED = robot(
+    link("base", 4, BOX),
+    *(
+        joint(name, "base", f"{name}_bob", "revolute",
+              f'<origin xyz="{x} 0 -0.2"/><axis xyz="0 1 0"/>'
+              '<limit lower="-0.1" upper="0.1" effort="0.5" velocity="9"/>')
+        + link(f"{name}_bob", 0.5, BOB, TENSOR)
+        for name, x in (("one", 0), ("two", 0.02))
+    ),
+)  # fmt: skip
+
+
+@pytest.mark.library("mujoco")
+def test_the_stage_is_stepped_with_contacts_between_links_only_if_it_has_them(write):
+    path = write("crossed.urdf", CROSSED)
+    written = export(path, file="r.usda", base="fixed")
+    text = written.files["r.usda"].decode()
+    assert "newton:selfCollisionEnabled = 0" in text
+    assert rows_by_name(path, written)["runs"].verdict == "equal"
+    collides = text.replace("selfCollisionEnabled = 0", "selfCollisionEnabled = 1")
+    written.files["r.usda"] = collides.encode()
+    assert rows_by_name(path, written)["runs"].verdict == "differs"
+
+
 def test_without_mujoco_the_stage_is_not_stepped(write, monkeypatch):
     monkeypatch.setattr("urdftool.formats.step_read_back.is_installed", lambda name: False)
     path = write("arm.urdf", ARM)

@@ -15,6 +15,9 @@ from .links import LinkWriter
 from .options import Options
 from .stage import PHYSICS, PHYSX, apply, set_value
 
+SELF_COLLISION = "newton:selfCollisionEnabled"
+"""Attribute of an articulation: whether its links collide with each other."""
+
 
 def write_self_collision(links: LinkWriter, options: Options, written: Written) -> None:
     """Write the root of the articulation, and whether its links collide with each other."""
@@ -35,7 +38,7 @@ def write_self_collision(links: LinkWriter, options: Options, written: Written) 
     with builder.edit_layer(PHYSICS):
         UsdPhysics.ArticulationRootAPI.Apply(prim)
         apply(prim, "NewtonArticulationRootAPI")
-        set_value(prim, "newton:selfCollisionEnabled", "bool", collides)
+        set_value(prim, SELF_COLLISION, "bool", collides)
     if options.has_physx:
         with builder.edit_layer(PHYSX):
             apply(prim, "PhysxArticulationAPI")

@@ -30,6 +30,7 @@ from ..common.directory import write_export
 from ..common.losses import DeclaredLosses, name_links
 from ..step_read_back import check_read_back
 from ..written import Written
+from .contacts import SELF_COLLISION
 from .declared_losses import EXCUSES, UNSEEN
 from .read import read
 
@@ -63,7 +64,11 @@ def verify_copy(
         checks = prove(expected, reading.robot, claims, rows=choose_rows())
         announce_additions(checks, source, written.planned)
         checks.append(compare_home(path, expected, written.planned.configurations[0].positions))
-        checks.append(check_read_back(reading.robot, read_start(path), timestep, losses))
+        collides = read_self_collision(path)
+        start = read_start(path)
+        checks.append(
+            check_read_back(reading.robot, start, timestep, losses, self_collides=collides)
+        )
         if is_installed("newton") if newton is None else newton:
             from .verify_newton import compare_newton
 
@@ -127,6 +132,12 @@ def compare_home(path: Path, robot: Robot, home: Mapping[str, float]) -> Check:
 def read_start(path: Path) -> dict[str, float]:
     """Return the positions at which the joints of a stage start [rad or m], by name."""
     return {name: _list_positions(prim)["position"] for name, prim in _list_joints(path)}
+
+
+def read_self_collision(path: Path) -> bool:
+    """Tell whether a stage says that the links of its robot collide with each other."""
+    stage = Usd.Stage.Open(str(path))
+    return any(prim.GetAttribute(SELF_COLLISION).Get() for prim in stage.Traverse())
 
 
 def _list_joints(path: Path) -> Iterator[tuple[str, Usd.Prim]]:
