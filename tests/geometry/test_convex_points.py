@@ -12,6 +12,7 @@ from tests.conftest import FIXTURES
 from urdftool.errors import MeshError
 from urdftool.geometry.convex_points import (
     ConvexPoints,
+    drop_repeated,
     read_convex_points,
     select_extreme_points,
     support_function_of,
@@ -94,6 +95,24 @@ def test_few_of_many_points_reach_nearly_as_far(count):
     assert (near > (0.9 if count > 1_000 else 0.8) * far).all()
     whole = ConvexPoints(points)
     np.testing.assert_allclose((whole.low, whole.high), (points.min(axis=0), points.max(axis=0)))
+
+
+def test_many_triangles_reach_as_far_as_their_points():
+    """Of a mesh with each position six times, as an STL file of it has."""
+    rng = np.random.default_rng(0)
+    points = rng.normal(size=(10_000, 3))
+    whole = ConvexPoints(rng.permutation(np.repeat(points, 6, axis=0)))
+    for way in rng.normal(size=(50, 3)):
+        found = whole.find_outermost((1.0, 2.0, 3.0), way)
+        assert np.dot(found, way) == pytest.approx((points * (1, 2, 3) @ way).max(), abs=1e-12)
+    low, high = whole.compute_box((1.0, 1.0, 1.0), TILTED, (0.0, 0.0, 0.0))
+    turned = points @ np.array(TILTED).T
+    np.testing.assert_allclose((low, high), (turned.min(axis=0), turned.max(axis=0)), atol=1e-12)
+
+
+def test_repeated_points_are_dropped_and_the_others_keep_their_order():
+    points = np.array([[1, 2, 3], [0, 0, 0], [1, 2, 3], [3, 2, 1], [-0.0, 0, 0], [1, 2, 4.0]])
+    np.testing.assert_array_equal(drop_repeated(points), points[[0, 1, 3, 5]])
 
 
 def test_support_function_reaches_from_the_middle():

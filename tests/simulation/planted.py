@@ -5,6 +5,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from urdftool import cli
+from urdftool.api.start import choose_start
 from urdftool.model.kinematics import link_poses
 from urdftool.model.load import load
 from urdftool.simulation.prepare import prepare
@@ -92,13 +93,15 @@ def absolute(tree, source):
 def into_neighbour(path, name, part=1.0):
     """By how much a collision moves in its link's frame to the middle of that of the link above.
 
+    The robot is at the start of a simulation.
+
     Args:
         path: The robot.
         name: The link.
         part: Of the way to there.
     """
     robot = load(path)
-    bodies = prepare(robot, Settings())
+    bodies = prepare(robot, choose_start(robot, Settings())[0])
     poses = link_poses(robot, bodies.positions)
     number = next(n for n, body in enumerate(bodies.bodies) if name in body.links)
     above = bodies.bodies[number].parent

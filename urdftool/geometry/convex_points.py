@@ -33,7 +33,7 @@ LARGEST = 64_000_000
 
 _DIRECTIONS = 90
 """Points of the unit sphere in whose directions extreme points are kept; chosen, no source."""
-_KEPT = 50_000  # larger meshes keep only their extreme points; chosen
+_MANY = 50_000  # larger meshes keep each position once, of which an STL file has about six; chosen
 _FEW = 3_000  # meshes up to this size are deduplicated first; chosen
 _ALIGNED = 1e-12
 """Component of a unit vector [1] below which it is rounding of zero: 10^4 times that of doubles.
@@ -51,12 +51,10 @@ class ConvexPoints:
 
     def __init__(self, points: Points) -> None:
         """Store the points, shape (n, 3); extreme points are selected on demand."""
-        self._all = points
+        self._all = drop_repeated(points) if len(points) > _MANY else points
         self._outermost: list[Vector] | None = None
         self._boxes: dict[tuple[Sequence[float], Rotation], tuple[Vector, Vector]] = {}
         self.low, self.high = _compute_box(points)
-        if len(points) > _KEPT:
-            self._all = np.array(self.points)
 
     @property
     def points(self) -> list[Vector]:
@@ -67,7 +65,7 @@ class ConvexPoints:
         if self._outermost is None:
             points = self._all
             if len(points) <= _FEW:
-                points = np.array(list(dict.fromkeys(map(tuple, points.tolist()))))
+                points = drop_repeated(points)
             self._outermost = [(x, y, z) for x, y, z in select_extreme_points(points).tolist()]
         return self._outermost
 
@@ -137,6 +135,15 @@ def read_convex_points(path: str | Path, gltf_up: GltfUp = "y") -> ConvexPoints 
 def _compute_box(points: Points) -> tuple[Vector, Vector]:
     (a, b, c), (d, e, f) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
     return (a, b, c), (d, e, f)
+
+
+def drop_repeated(points: Points) -> Points:
+    """Return the first of equal points, shape (n, 3), in their order."""
+    key = points @ (1.0, math.e, math.pi)  # equal points are neighbors in its order, but for chance
+    order = key.argsort(kind="stable")
+    is_first = np.ones(len(points), dtype=bool)
+    is_first[1:] = (points[order[1:]] != points[order[:-1]]).any(axis=1)
+    return points[np.sort(order[is_first])]
 
 
 def select_extreme_points(points: Points) -> Points:
