@@ -38,3 +38,14 @@ def test_a_robot_without_shapes_has_no_size():
 def test_depth_counts_joints():
     chain = tree("abcd", [("ab", "a", "b"), ("bc", "b", "c"), ("ad", "a", "d")])
     assert count(chain).depth == 2
+
+
+def test_shapes_that_the_size_lacks_are_counted():
+    model = robot(
+        '<robot name="r"><link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual>'
+        '<visual><geometry><cone radius="9"/></geometry></visual><collision><geometry>'
+        '<mesh filename="missing.stl"/></geometry></collision></link></robot>'
+    )
+    measured = measure(model)
+    assert measured.bounds.size == pytest.approx((1, 1, 1))
+    assert measured.left_out == 2

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..errors import UrdftoolError
 from ..model.bounds import Bounds, compute_bounds_at
-from ..model.elements import Collision, Mesh, Robot, Vector, Visual
+from ..model.elements import Collision, Mesh, Plane, Robot, Vector, Visual
 from ..model.kinematics import compute_link_poses
 from ..model.pose import Pose, make_pose
 
@@ -44,10 +44,13 @@ class Measured:
     Attributes:
         bounds: Bounding box at the zero pose, along the axes of the root [m]; None if no
             geometry can be read, or a length is not finite.
+        left_out: Number of shapes that the bounding box lacks: their mesh or dimensions could not
+            be read, or their link has no pose; planes, which have no bounds, are not counted.
         meshes: Mesh files, in the order of their first reference.
     """
 
     bounds: Bounds | None = None
+    left_out: int = 0
     meshes: list[MeshFile] = field(default_factory=list)
 
     def count_triangles(self, kind: str) -> int:
@@ -68,19 +71,23 @@ def measure(robot: Robot, progress: Progress = lambda *_: None) -> Measured:
         at = poses.get(link.name)
         if isinstance(shape.geometry, Mesh):
             uses.setdefault(shape.geometry.filename, []).append((at, shape))
-        elif at is not None:
-            box = _compute_primitive_bounds(shape, at)
+        elif not isinstance(shape.geometry, Plane):
+            box = None if at is None else _compute_primitive_bounds(shape, at)
             boxes += [] if box is None else [box]
+            measured.left_out += box is None
     for number, (uri, shapes) in enumerate(uses.items(), 1):
         progress(number, len(uses), uri)
         mesh = MeshFile(uri)
         mesh.visuals = sum(isinstance(shape, Visual) for _, shape in shapes)
         mesh.collisions = len(shapes) - mesh.visuals
         measured.meshes.append(mesh)
+        read: list[Bounds] = []
         try:
-            boxes += _read(robot, mesh, shapes)
+            read += _read(robot, mesh, shapes)
         except UrdftoolError as error:
             mesh.reason = error.message
+        boxes += read
+        measured.left_out += len(shapes) - len(read)
     for box in boxes:
         measured.bounds = box if measured.bounds is None else measured.bounds.join(box)
     if measured.bounds is not None and not all(map(math.isfinite, measured.bounds.size)):

@@ -61,7 +61,7 @@ def _list_rows(robot: Robot, counts: Counts, measured: Measured) -> Iterator[tup
         yield "actuators", _format_listed([one.name or one.joint for one in robot.joint_actuators])
     without = f"; {format_count(counts.massless, 'link')} without" if counts.massless else ""
     yield "mass", f"{counts.mass:.6g} kg{without}"
-    yield "size at zero pose", _format_size(counts, measured)
+    yield "size at zero pose", _format_size(measured)
     unknown = [g for _, shape in robot.shapes if isinstance(g := shape.geometry, UnknownShape)]
     yield "meshes", _format_meshes(measured, sum(shape.tag == "mesh" for shape in unknown))
     for mesh in measured.meshes:
@@ -79,12 +79,12 @@ def _list_rows(robot: Robot, counts: Counts, measured: Measured) -> Iterator[tup
         yield "transmissions", _format_listed(counts.transmissions)
 
 
-def _format_size(counts: Counts, measured: Measured) -> str:
+def _format_size(measured: Measured) -> str:
     if measured.bounds is None:
         return "no shape that could be read"
     size = " × ".join(f"{round(length, 6):.4g}" for length in measured.bounds.size)
-    missing = sum(bool(mesh.reason) for mesh in measured.meshes)
-    lacks = f", without {format_count(missing, 'mesh', 'meshes')}" if missing else ""
+    missing = measured.left_out
+    lacks = f", without {format_count(missing, 'shape')} that could not be read" if missing else ""
     lowest = f"; lowest point at z = {round(measured.bounds.low[2], 6) + 0.0:.4g} m"
     return f"{size} m along the root's x, y, z{lowest}{lacks}"
 
@@ -141,6 +141,7 @@ def to_json(robot: Robot, counts: Counts, measured: Measured) -> str:
             for named in getattr(counts, kind)
         ]
     record["size"] = None if bounds is None else list(bounds.size)
+    record["left_out"] = measured.left_out
     record["bounds"] = None if bounds is None else {"low": bounds.low, "high": bounds.high}
     record["meshes"] = [{**asdict(mesh), "reason": mesh.reason or None} for mesh in measured.meshes]
     record["triangles"] = {
