@@ -178,7 +178,8 @@ def _problems(outcome, scratch, before):
     written = sorted((scratch / "out").rglob("*"))
     if any(p.is_file() and not p.stat().st_size for p in written):
         found.append("an empty output")
-    if outcome.code == 2 and written and "--fleet" not in outcome.words:
+    tells = not {"--fleet", "--output-file"}.isdisjoint(outcome.words)  # reports of what failed
+    if outcome.code == 2 and written and not tells:
         found.append(f"could not be done, and wrote {written[0].name}")
     return found
 

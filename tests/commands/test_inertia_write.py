@@ -317,6 +317,19 @@ def test_a_file_of_another_package_is_not_edited(urdftool, xacro_file, write):
     assert "<inertial>" not in Path("other/part.xacro").read_text()
 
 
+def test_a_computed_moment_that_is_right_up_to_rounding_is_not_to_be_set(urdftool, xacro_file):
+    inertia = '<inertia ixx="${3 - 2.2 + 0.2}" ixy="0" ixz="0" iyy="1" iyz="0" izz="${2*0.6}"/>'
+    path = xacro_file(
+        "r.xacro",
+        f'<link name="a"><inertial><mass value="6"/>{inertia}</inertial>\n'
+        '<visual><geometry><box size="1 1 1"/></geometry></visual></link>',
+    )
+    assert 3 - 2.2 + 0.2 != 1
+    done = fill(urdftool, path, "--all", code=1)
+    assert 'set izz="1"' in done.err
+    assert "set ixx" not in done.err
+
+
 def test_the_arm_with_a_copied_moment_is_mended(urdftool, tmp_path):
     folder = tmp_path / "ros2_arm"
     shutil.copytree(ROBOTS / "ros2_arm", folder)

@@ -56,8 +56,16 @@ def test_a_mesh_that_was_not_read_is_not_equal(tmp_path, mesh, files, reason):
     assert "no difference was found, but meshes were not read" in summary
 
 
-def test_one_missing_file_of_both_robots_is_no_difference(tmp_path):
+def test_one_missing_file_of_both_robots_is_not_compared(tmp_path):
     path = write(tmp_path / "A", "gone.stl", {})
+    agreement = urdftool.verify(path, path)
+    reason = agreement.pairs[0, 1].list_skipped()["visuals"]
+    assert reason.startswith("1 mesh not read: ")
+    assert not agreement.is_equal
+
+
+def test_one_file_of_both_robots_is_equal_though_it_cannot_be_read(tmp_path):
+    path = write(tmp_path / "A", "bad.stl", {"bad.stl": "no mesh"})
     assert urdftool.verify(path, path).is_equal
 
 

@@ -233,7 +233,7 @@ def _measure_meshes(state: _Comparing, x: Placed, y: Placed) -> float:
 
 
 def _record_unread(state: _Comparing, x: Placed, y: Placed) -> None:
-    """Record the meshes of two equal shapes that were not read, but for one file of both."""
+    """Record the meshes of two equal shapes that were not read, but for one that exists."""
     robots, meshes = (state.pair.a.robot, state.pair.b.robot), state.pair.meshes
     one, two = x.geometry, y.geometry
     if isinstance(one, UnknownShape) and isinstance(two, UnknownShape):
@@ -243,7 +243,8 @@ def _record_unread(state: _Comparing, x: Placed, y: Placed) -> None:
     if not isinstance(one, Mesh) or not isinstance(two, Mesh):
         return
     same_axes = _get_up(robots[0]) == _get_up(robots[1])
-    if same_axes and meshes.is_one_file(robots, (one, two)):
+    exists = meshes.find(robots[0], one) is not None
+    if exists and same_axes and meshes.is_one_file(robots, (one, two)):
         return
     for robot, mesh in zip(robots, (one, two), strict=True):
         reason = meshes.explain_unread(robot, mesh)

@@ -133,7 +133,7 @@ def _set_numbers(
     return [
         RequestedEdit(inertia, name, number_text(meant[name]))
         for name in COMPONENTS
-        if number(inertia.get(name)) != meant[name]
+        if not _is_same_number(inertia.get(name), [meant[name]])
     ]
 
 
