@@ -1,10 +1,11 @@
 """Write the parts of the documentation that come from code: ``python docs/generate.py [--check]``.
 
 These are a page per rule, from its docstring, its decorator and its fixtures; an index of rules;
-the help of each command, between marks in its page; the reference of the Python API; man pages
-and completion scripts; and the output of each ``$ command`` of a ``console`` block, run in a copy
-of the fixtures. ``--check`` writes nothing and prints the files that would change, and
-``--rule NAME`` writes the page of that rule and the index alone.
+the help of each command, between marks in its page; what the exports to MJCF and SDF make of each
+element; the reference of the Python API; man pages and completion scripts; and the output of each
+``$ command`` of a ``console`` block, run in a copy of the fixtures. ``--check`` writes nothing and
+prints the files that would change, and ``--rule NAME`` writes the page of that rule and the index
+alone.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import click
-from generator import rule_pages
+from generator import mjcf_mapping, rule_pages, sdf_mapping
 from generator.completions import list_completions
 from generator.console import BLOCK, insert_output, is_same, list_pages, read_mode
 from generator.man import list_man_pages
@@ -38,6 +39,11 @@ def list_generated() -> Iterator[tuple[Path, str]]:
     yield DOCS / "rules" / "index.md", rule_pages.write_index()
     for path in sorted([*DOCS.glob("commands/*.md"), *DOCS.glob("edit/*.md")]):
         yield path, insert_help(path)
+    for name, text in (
+        ("mjcf", mjcf_mapping.format_markdown()),
+        ("sdf", sdf_mapping.format_mapping()),
+    ):
+        yield DOCS / "formats" / f"{name}.md", insert_mapping(DOCS / "formats" / f"{name}.md", text)
     yield DOCS / "python.md", insert_names((DOCS / "python.md").read_text("utf-8"))
     yield from list_man_pages()
     yield from list_completions()
@@ -55,6 +61,13 @@ def insert_help(path: Path) -> str:
         return f"{match['begin']}\n```text\n{format_help(words)}\n```\n{END}"
 
     return HELP.sub(format_block, path.read_text("utf-8"))
+
+
+def insert_mapping(path: Path, text: str) -> str:
+    """Return the page of a format with what its writer makes of each element between its marks."""
+    before, begin, rest = path.read_text("utf-8").partition("<!-- mapping begins -->")
+    _, end, after = rest.partition("<!-- mapping ends -->")
+    return f"{before}{begin}\n\n{text}\n\n{end}{after}"
 
 
 def format_help(words: list[str]) -> str:

@@ -410,7 +410,6 @@ OPENERS = {
     "formats/mjcf/texture.py": MEMORY,
     "formats/mjcf/verify_looks.py": CHECKED,
     "formats/mjcf/write.py": "lists SRDF files, which the workspace opens",
-    "formats/sdf/page.py": OWN,
     "formats/usd/files.py": OUTPUTS,
     "compare/mesh_measure.py": CHECKED,
     "compare/names.py": NAMED,

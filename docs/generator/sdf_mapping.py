@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ...model.gazebo_colors import COLORS
-from ...model.gazebo_plugins import (
+from urdftool.formats.sdf.joints import SDF_TYPES
+from urdftool.formats.sdf.options import DEFAULT_VERSION, RELEASES, VERSIONS
+from urdftool.formats.sdf.sensor_types import SYSTEMS, TO_CLASSIC, TO_GZ, SensorType
+from urdftool.model.gazebo_colors import COLORS
+from urdftool.model.gazebo_plugins import (
     BODY_SENSORS,
     CONTROL_PLUGINS,
     MIMIC_PLUGINS,
     SENSOR_PLUGINS,
     SYSTEM_PLUGINS,
 )
-from ...model.settings import (
+from urdftool.model.settings import (
     LUMPING_TAGS,
     OF_JOINTS,
     OF_LINKS,
@@ -20,9 +23,6 @@ from ...model.settings import (
     SURFACE,
     Setting,
 )
-from .joints import SDF_TYPES
-from .options import DEFAULT_VERSION, RELEASES, VERSIONS
-from .sensor_types import SYSTEMS, TO_CLASSIC, TO_GZ, SensorType
 
 _DYNAMICS = f"dynamics {', '.join(RESISTANCE_OF_URDF)}"
 

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ...model.sensors import KINDS as SENSORS
-from ...model.sensors import SensorKind
-from ...model.settings import OF_JOINTS, OF_LINKS, RESISTANCE, SURFACE, Setting
-from .gazebo import LOST, MISSING
-from .loops import KINDS as CLOSERS
-from .structure import KINDS
+from urdftool.formats.mjcf.gazebo import LOST, MISSING
+from urdftool.formats.mjcf.loops import KINDS as CLOSERS
+from urdftool.formats.mjcf.structure import KINDS
+from urdftool.model.sensors import KINDS as SENSORS
+from urdftool.model.sensors import SensorKind
+from urdftool.model.settings import OF_JOINTS, OF_LINKS, RESISTANCE, SURFACE, Setting
 
 EXACT, CLOSE, LOST_MARK = "=", "≈", "×"
 
