@@ -73,7 +73,7 @@ def test_an_inertia_that_no_reader_of_the_project_takes_is_off(tmp_path, code, r
         ("requirements.txt", "mujoco>=3\n"),
         ("pyproject.toml", '[project]\ndependencies = ["mujoco"]\n'),
         ("b.py", "from omni.isaac import core\n"),
-        ("b.py", "#" * (2 << 20)),
+        ("b.py", "#" * (5 << 20)),
     ],
 )
 def test_what_names_another_reader_counts_as_use(tmp_path, name, text):
@@ -91,9 +91,20 @@ def test_code_of_a_folder_that_is_no_package_says_nothing(tmp_path):
     assert "placeholder-inertia" in _names(tmp_path, "import pybullet\n", mark="other.txt")
 
 
-def test_an_error_stays(tmp_path):
+@pytest.mark.parametrize(
+    ("code", "reported"),
+    [
+        ("", True),
+        ("import pybullet\n", False),
+        ("import pybullet as p\np.loadURDF('cart.urdf', flags=2)\n", True),
+        ("import pinocchio\n", False),
+        ("import pinocchio\npinocchio.rnea(model, data, q, v, a)\n", True),
+        ("import mujoco\n", True),
+    ],
+)
+def test_an_error_stays_where_a_reader_of_the_project_takes_the_inertia(tmp_path, code, reported):
     robot = ROBOT.replace('ixx="1"', 'ixx="9"')
-    assert "inertia-triangle-inequality" in _names(tmp_path, "import pybullet\n", robot=robot)
+    assert ("inertia-triangle-inequality" in _names(tmp_path, code, robot=robot)) is reported
 
 
 def test_inertias_of_a_marker_are_off_and_those_of_a_single_body_are_not(tmp_path):

@@ -13,17 +13,20 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
-from ..diagnostic import Severity
 from ..errors import UrdftoolError
-from ..finding import Finding
-from ..model.elements import Robot
 from ..projects import list_above
-from ..rules.rule import GAZEBO, ROS, Rule
+from ..rules.rule import ROS
 from ..source.comments import blank_comments
 from ..source.description import Description
 from ..source.nearby_files import read_optional_file
 from ..workspace import Workspace, memoize_by_workspace
 from .evidence import read_launch_files
+
+CHAIN = "kinematic chains"
+"""Readers that take joints and their limits: no masses, no shapes."""
+
+SCENE = "kinematics and shapes"
+"""Readers that take joints, and shapes at their places: no masses, no motion."""
 
 _READERS = {
     **dict.fromkeys(("mujoco", "mujoco_py", "dm_control", "robosuite", "brax"), "mujoco"),
@@ -34,17 +37,39 @@ _READERS = {
     "pydrake": "drake",
     "newton": "newton",
     **dict.fromkeys(("hpp", "pyhpp", "hppfcl", "coal", "gepetto"), "pinocchio"),
-    **dict.fromkeys(("ikpy", "kinpy", "pytorch_kinematics", "tracikpy", "pyroki"), "kinematics"),
+    **dict.fromkeys(("ikpy", "kinpy", "pytorch_kinematics", "tracikpy", "pypot"), CHAIN),
+    **dict.fromkeys(("yourdfpy", "urdfpy", "urchin", "pyroki", "skrobot", "klampt"), SCENE),
+    "pytransform3d": SCENE,
 }
-"""Reader, as effects name it, of each library; "kinematics" reads no masses and no collisions."""
+"""Reader, as effects name it, of each library."""
 
 _WITHOUT_DYNAMICS = frozenset(
     (
-        *("ikpy", "kinpy", "pytorch_kinematics", "tracikpy", "pyroki"),
+        *(name for name, reader in _READERS.items() if reader in (CHAIN, SCENE)),
         *("hpp", "pyhpp", "hppfcl", "coal", "gepetto"),
     )
 )
 """Libraries of kinematics, distances and path planning."""
+
+_DYNAMICS_OF_PYBULLET = (
+    *(b"setJointMotorControl", b"applyExternal", b"calculateInverseDynamics", b"changeDynamics"),
+    *(b"calculateMassMatrix", b"createConstraint", b"resetBaseVelocity", b"getDynamicsInfo"),
+    *(b"pybullet_envs", b"import gym", b"from gym"),
+)
+"""What code with dynamics of PyBullet contains; an environment of Gymnasium moves its robots."""
+
+_DYNAMICS_OF = {
+    "pinocchio": re.compile(
+        rb"\b(?:rnea|aba|crba|ccrba|computeAllTerms|computeMinverse|nonLinearEffects|dccrba)\b"
+        rb"|computeGeneralizedGravity|computeCentroidal|centerOfMass|forwardDynamics|\.inertias\b"
+        rb"|RNEA|computeTotalMass|Regressor|computeKineticEnergy|computeStaticTorque"
+    ),
+    "klampt": re.compile(rb"\bSimulator\b|getMass\b|dynamics|getGravityForces"),
+}
+"""What code with dynamics calls, of other libraries that are used without dynamics, too."""
+
+_POSES = (b"resetJointState", b"calculateInverseKinematics")
+"""What code calls that places the bodies of PyBullet itself, though it may step the simulation."""
 
 _OF_PLANNER = re.compile(rb"<(name|\w*depend)>\s*hpp[-_][\w-]+\s*</\1>")
 """What a package.xml of HPP says: its name, or a package that it depends on."""
@@ -54,7 +79,7 @@ class Use(NamedTuple):
     """Who uses the descriptions of a project.
 
     Attributes:
-        readers: The readers, as effects name them.
+        readers: The readers, as effects name them; also ``CHAIN`` and ``SCENE``.
         moves: Whether one of them computes dynamics.
         keeps_inertia: Whether PyBullet gets the flag that keeps inertias.
     """
@@ -66,45 +91,61 @@ class Use(NamedTuple):
 
 _PLANNER = Use(frozenset(("pinocchio",)), moves=False)
 
+_OF_ROS = frozenset(
+    (
+        *("rclpy", "rospy", "moveit_commander", "moveit", "moveit_msgs", "ament_index_python"),
+        *("launch_ros", "roslib", "rospkg", "roslaunch", "tf2_ros", "sensor_msgs"),
+        *("scenario", "gym_ignition", "gz"),
+    )
+)
+"""Libraries of ROS and Gazebo."""
+
 _OTHER_ENGINES = frozenset(
     (
         *("isaacgym", "isaacsim", "isaaclab", "omni", "genesis", "sapien", "mani_skill", "dartpy"),
-        *("raisimpy", "scenario", "gym_ignition", "jaxsim", "idyntree", "roboticstoolbox", "gz"),
-        *("rclpy", "rospy", "moveit_commander", "klampt", "chrono", "pychrono", "adam"),
+        *("raisimpy", "jaxsim", "idyntree", "roboticstoolbox", "chrono", "pychrono", "adam"),
     )
 )
-"""Libraries of dynamics, simulators and ROS, whose behavior few effects describe."""
+"""Libraries of dynamics and simulators, whose behavior few effects describe."""
 
-_WORDS = frozenset(("adam", "chrono", "genesis", "gz", "newton", "omni", "pink", "scenario"))
+_ANY_ENGINE = frozenset(("mujoco", "pybullet", "pinocchio", "drake", "newton", "isaac"))
+"""Readers whose effects show what another engine may do."""
+
+_WORDS = frozenset(
+    (
+        *("adam", "chrono", "genesis", "gz", "newton", "omni", "pink", "scenario", "moveit"),
+        *("pyroki", "urchin", "coal", "hpp"),
+    )
+)
 """Names of libraries that are words too: only where a line imports them."""
 
-_PACKAGING = ("pyproject.toml", "setup.py", "PKG-INFO", ".git")
+_PACKAGING = ("pyproject.toml", "setup.py", "setup.cfg", "PKG-INFO", ".git")
 _IMPORT = re.compile(rb"(?m)^[ \t]*(?:import|from)[ \t]+(\w+)")
 _IMPORT_LINE = re.compile(rb"\b(?:import|from)\b[^\n]*(?:\\\r?\n[^\n]*)*")
-_NAMED = re.compile(
-    rb"\b(?:%s)\b" % b"|".join(sorted(n.encode() for n in {*_READERS, *_OTHER_ENGINES} - _WORDS))
-)
+_NAMES = tuple(sorted(name.encode() for name in {*_READERS, *_OTHER_ENGINES, *_OF_ROS} - _WORDS))
+_NAMED = re.compile(rb"\b(?:%s)\b" % b"|".join(_NAMES))
 _WORD = re.compile(rb"\w+")
 _KEEPS_INERTIA = re.compile(rb"URDF_USE_INERTIA_FROM_FILE|\bflags\s*=\s*[1-9]")
 
-_FILES = _FOLDERS = 400
+_FILES = _FOLDERS = 1000
 """Maximum number of files and of folders; of more, none is read. Chosen, no source."""
 
-_BYTES = 1 << 20
+_OF_URDF = (".urdf", ".xacro")
+
+_BYTES = 4 << 20
 """Maximum size of a file of code; of a larger one, nothing is known. Chosen, no source."""
-
-_UNAFFECTED = re.compile(r"(?:accept|read)s? it$")
-"""Effect on a reader to which the finding does not matter."""
-
-_SIMULATORS = frozenset(("gz", "gazebo-classic", "mujoco", "pybullet", "drake", "newton"))
 
 
 def find_imported_readers(description: Description, targets: frozenset[str]) -> Use | None:
     """Find the readers for which a project brings a description.
 
+    A description in URDF is not read by MuJoCo if code that imports another reader mentions URDF,
+    and no code that imports MuJoCo does, which then reads an MJCF. An engine that effects do not
+    name may do what any other does.
+
     Returns:
-        The readers; None if the code imports none, or an engine that effects do not name, or if the
-        project is for ROS, where others use its packages, or has a launch file that starts Gazebo.
+        The readers; None if the code imports none, or a library of ROS, where others use packages,
+        or if the project has a launch file that starts Gazebo.
     """
     if description.path == "-" or not targets.isdisjoint(ROS):
         return None
@@ -119,9 +160,22 @@ def find_imported_readers(description: Description, targets: frozenset[str]) -> 
         if _is_packaged(files, place, holds_module):
             if read_launch_files(files, place):
                 return None
-            found = _read_imports(files, str(place))
-            return found and found._replace(readers=found.readers | targets)
+            imports = _read_imports(files, str(place))
+            if imports is None:
+                return None
+            found = imports.of_urdf if description.path.endswith(_OF_URDF) else imports.of_any
+            return found._replace(readers=found.readers | targets)
     return None
+
+
+def is_vendored(files: Workspace, package: Path) -> bool:
+    """Tell whether a package of ROS is a copy in a module of a Python project."""
+    holds_module = False
+    for place in list_above(package.parent, files):
+        if holds_module and _is_packaged(files, place, holds_module):
+            return True
+        holds_module = holds_module or files.exists(place / "__init__.py")
+    return False
 
 
 def is_of_planner(files: Workspace, folder: Path) -> bool:
@@ -147,80 +201,78 @@ def _is_packaged(files: Workspace, folder: Path, holds_module: bool) -> bool:
     return any(entry.name.endswith((".dist-info", ".egg-info")) for entry in entries)
 
 
+class _Imports(NamedTuple):
+    """Who uses the descriptions of a project, and who those in URDF."""
+
+    of_any: Use
+    of_urdf: Use
+
+
 @memoize_by_workspace
-def _read_imports(files: Workspace, folder: str) -> Use | None:
+def _read_imports(files: Workspace, folder: str) -> _Imports | None:
     """Return the readers that code imports or names; None if it imports none.
 
     A name in other text, such as a requirement, a module that is imported by its name or a comment,
     counts as use, since it may be one.
     """
-    paths: list[str] = []
-    waiting = [folder]
-    for place in waiting:
-        if len(paths) > _FILES or len(waiting) > _FOLDERS:
-            return None
-        found, folders = files.list_code(place)
-        paths += (os.path.join(place, name) for name in found)
-        waiting += (os.path.join(place, name) for name in folders)
-    imported: set[bytes] = set()
-    named: set[bytes] = set()
+    paths = _list_code(files, folder)
+    imported: set[str] = set()
+    named: set[str] = set()
+    of_urdf: set[str] = set()
     keeps_inertia = False
-    for path in paths:
+    places_bodies = False
+    moved: set[str] = set()
+    for path in paths or ():
         try:
             text = files.read_bytes(path, _BYTES)
         except (OSError, UrdftoolError):
             return None
         keeps_inertia = keeps_inertia or bool(_KEEPS_INERTIA.search(text))
-        imported.update(_IMPORT.findall(text))
-        named.update(_NAMED.findall(text))
-        named.update(word for line in _IMPORT_LINE.findall(text) for word in _WORD.findall(line))
-    if _READERS.keys().isdisjoint(name.decode() for name in imported):
+        own = {name.decode() for name in _IMPORT.findall(text)}
+        words = _NAMED.findall(text) if _holds_any(text, _NAMES) else []
+        words += (word for line in _IMPORT_LINE.findall(text) for word in _WORD.findall(line))
+        mentioned = {word.decode("utf-8", "replace") for word in words}
+        if mentioned & _OF_ROS:
+            return None
+        imported |= own
+        named |= mentioned & {*_READERS, *_OTHER_ENGINES}
+        if b"urdf" in text.lower():
+            of_urdf |= {_READERS[name] for name in own & _READERS.keys()}
+        for name in mentioned & _DYNAMICS_OF.keys():
+            if _DYNAMICS_OF[name].search(text):
+                moved.add(name)
+        if _holds_any(text, _DYNAMICS_OF_PYBULLET):
+            moved.add("pybullet")
+        places_bodies = places_bodies or _holds_any(text, _POSES)
+    if _READERS.keys().isdisjoint(imported):
         return None
-    names = {name.decode() for name in named}
-    if names & _OTHER_ENGINES:
-        return None
-    used = names & {*_READERS}
-    return Use(frozenset(_READERS[n] for n in used), bool(used - _WITHOUT_DYNAMICS), keeps_inertia)
+    used = named & {*_READERS}
+    readers = {_READERS[name] for name in used}
+    if named & _OTHER_ENGINES:
+        readers |= _ANY_ENGINE
+    still = set(_WITHOUT_DYNAMICS) - moved
+    still |= {"pinocchio"} - moved
+    if places_bodies and "pybullet" not in moved and not keeps_inertia:
+        still |= {name for name, reader in _READERS.items() if reader == "pybullet"}
+    moves = bool(used - still) or not named.isdisjoint(_OTHER_ENGINES)
+    found = Use(frozenset(readers), moves, keeps_inertia)
+    is_of_mjcf = bool(of_urdf) and "mujoco" not in of_urdf and named.isdisjoint(_OTHER_ENGINES)
+    left = readers - {"mujoco"} if is_of_mjcf else readers
+    return _Imports(found, found._replace(readers=frozenset(left)))
 
 
-def is_for_other_readers(rule: Rule, finding: Finding, used: Use | None) -> bool:
-    """Tell whether a finding below error has effects on readers that a project does not use.
-
-    A project without dynamics uses no inertia. Of rules that are not about motion, only remarks
-    about simulators are judged, and settings for Gazebo alone: a file that readers take differently
-    is worth knowing.
-    """
-    if used is None or finding.severity is Severity.ERROR:
-        return False
-    is_of_inertia = rule.of_motion and rule.family == "inertia"
-    if is_of_inertia and not used.moves:
-        return True
-    readers = {
-        reader
-        for key, effect in finding.effects.items()
-        if not _UNAFFECTED.match(effect)
-        for reader in key.split(", ")
-    }
-    if not readers or not readers.isdisjoint(used.readers):
-        return False
-    if is_of_inertia and used.keeps_inertia:
-        return False
-    if rule.family == "inertia" or rule.of_motion or readers <= set(GAZEBO):
-        return True
-    return finding.severity is Severity.INFO and readers <= _SIMULATORS
+def _holds_any(text: bytes, words: tuple[bytes, ...]) -> bool:
+    return any(word in text for word in words)
 
 
-def is_of_unmoved_robot(rule: Rule, finding: Finding, robot: Robot | None) -> bool:
-    """Tell whether a remark about motion is about a robot that no simulator moves.
-
-    That is a marker, of which no joint moves and nothing collides, and a robot for kinematics, of
-    which no link has an inertial: ``missing-inertial`` reports that once. A single body with
-    collision geometry, as a drone or an object to grasp, moves as a whole.
-    """
-    if robot is None or not rule.of_motion or finding.severity is Severity.ERROR:
-        return False
-    if not robot.links:
-        return False
-    if robot.moving_joints:
-        return robot.format == "urdf" and all(link.inertial is None for link in robot.links)
-    return not any(link.collisions for link in robot.links)
+def _list_code(files: Workspace, folder: str) -> list[str] | None:
+    """Return the files of code below a folder; None if there are too many."""
+    paths: list[str] = []
+    waiting = [folder]
+    for place in waiting:  # the loop appends to this list
+        if len(paths) > _FILES or len(waiting) > _FOLDERS:
+            return None
+        found, folders = files.list_code(place)
+        paths += (os.path.join(place, name) for name in found)
+        waiting += (os.path.join(place, name) for name in folders)
+    return paths

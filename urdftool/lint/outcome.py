@@ -21,6 +21,7 @@ class Report:
         path: Path of the description.
         findings: Findings that are not suppressed.
         targets: Targets for which it was checked.
+        readers: Readers that the code of its project imports; empty if that is unknown.
         overruled: Why a generation of Gazebo of which it has a plugin is not a target.
         rejected: Rules by whose effects a reader rejects the robot, by reader.
         ignored: Suppressed findings, each with the reason in its comment.
@@ -45,6 +46,7 @@ class Report:
     path: str
     findings: list[Finding] = field(default_factory=list)
     targets: frozenset[str] = frozenset()
+    readers: frozenset[str] = frozenset()
     overruled: str = ""
     rejected: dict[str, tuple[str, ...]] = field(default_factory=dict)
     ignored: list[tuple[Finding, str]] = field(default_factory=list)

@@ -28,12 +28,13 @@ from ..source.location import SourceFile
 from ..source.packages import Packages
 from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
-from .imported_readers import find_imported_readers, is_for_other_readers, is_of_unmoved_robot
+from .imported_readers import find_imported_readers
 from .merge import merge, sort_findings
 from .moot import Rejections
 from .motion import UNUSED_JOINT, WELDED, is_joint_unused, is_link_unused, is_welded_in_mujoco
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .options import Options
+from .other_readers import drop_other_effects, is_for_other_readers, is_of_unmoved_robot, is_used
 from .outcome import NOT_EXPANDED, Report
 from .placeholders import find_template_error, refuse_template
 from .questions import join_variants, list_questions
@@ -322,6 +323,7 @@ def _check_description(
                     if is_off:
                         hidden.append(finding)
                         continue
+                    finding = drop_other_effects(finding, used)
                 findings.append(finding)
                 if finding.effects:
                     rejections.add(rule.name, rule.select_keys(problem.effects))
@@ -346,7 +348,11 @@ def _check_description(
         rejections.remove_moot_effects(one, selected=bool(settings.select)) for one in findings
     ]
     report.findings = sort_findings(merge(findings))
-    report.rejected = rejections.list_rejecting({finding.code for finding in findings})
+    rejected = rejections.list_rejecting({finding.code for finding in findings})
+    report.rejected = {
+        r: rules for r, rules in rejected.items() if used is None or is_used(r, used)
+    }
+    report.readers = frozenset() if used is None else used.readers
     report.unread_meshes = {} if robot is None else collect_unread_meshes(robot)
     for memo in (description.memo, *([robot.memo] if robot is not None else ())):
         memo.clear()  # breaks a reference cycle with the robot

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..model.elements import Robot
+from ..rules.rule import ROS
 from ..source.description import Description
 from .evidence import GENERATIONS, TARGETS_OF, Evidence, Signs, make_guess
-from .imported_readers import find_imported_readers, is_of_planner
+from .imported_readers import find_imported_readers, is_of_planner, is_vendored
 
 _NAMES = {"gz": "new Gazebo", "gazebo-classic": "Gazebo Classic"}
 
@@ -40,12 +41,16 @@ def infer_targets(robot: Robot, description: Description) -> Inference:
     ``<gazebo>`` tag counts for gz if the targets include ROS 2, else for Gazebo Classic. Launch
     files and other packages count only for a robot with ``<gazebo>`` tags. The package.xml
     distinguishes ROS 1 from ROS 2; without it, a transmission counts for ROS 1. In a Python project
-    without a package.xml, whose code imports readers, and in a package of HPP, a transmission, a
-    plugin of Gazebo Classic and a ``<gazebo>`` tag without a plugin are leftovers.
+    whose code imports readers and nothing of ROS, and in a package of HPP, elements for ROS and
+    Gazebo and an SRDF are leftovers, as is the package.xml of a copied description.
     """
     if robot.format in TARGETS_OF:
         return Inference(frozenset(TARGETS_OF[robot.format]))
     signs = Signs(robot, description)
+    imported = None if _is_for_ros(signs) else find_imported_readers(description, frozenset())
+    if imported is not None:
+        left = _get_targets(signs.elements) - GENERATIONS - {*ROS}
+        return Inference(left, imported=imported.readers)
     elements, named = _get_targets(signs.elements), _get_targets(signs.manifest)
     targets = named - GENERATIONS | elements - {"ros1"} | _get_targets(signs.companions)
     if "ros2" not in targets:
@@ -54,14 +59,15 @@ def infer_targets(robot: Robot, description: Description) -> Inference:
     guesses: tuple[Evidence, ...] = ()
     if signs.first_block is not None and not generations:
         guesses = (make_guess("gz" if "ros2" in targets else "gazebo-classic", signs.first_block),)
-    leftovers = {"ros1", "gazebo-classic"}
-    is_own = signs.package is None or is_of_planner(description.workspace, signs.package)
-    if is_own and (guesses or not leftovers.isdisjoint(targets | generations)):
-        imported = find_imported_readers(description, frozenset())
-        if imported is not None:
-            left = (targets | generations) - leftovers
-            return Inference(left, overruled, imported=imported.readers)
     return Inference(targets | generations | _get_targets(guesses), overruled, guesses)
+
+
+def _is_for_ros(signs: Signs) -> bool:
+    """Tell whether a description is in a package of ROS that is no copy in a Python project."""
+    if signs.package is None:
+        return False
+    files = signs.description.workspace
+    return not is_of_planner(files, signs.package) and not is_vendored(files, signs.package)
 
 
 def _infer_generations(signs: Signs) -> tuple[frozenset[str], str]:
