@@ -152,3 +152,28 @@ def test_a_light_without_a_name_is_the_same_with_one(write):
     assert b'type="ball" range="0 0.349' in written.files[written.main]
     rows = {row.name: row.verdict for row in verify_copy(robot, Options(), written)}
     assert (rows["sensors"], rows["limits"]) == ("equal", "equal")
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        (
+            "slide.xml",
+            '<mujoco><worldbody><body name="a"><geom size=".1"/><body name="b" pos="1 0 0">'
+            '<joint name="j" type="slide"/><geom size=".1"/></body></body></worldbody></mujoco>',
+        ),
+        (
+            "slide.sdf",
+            '<sdf version="1.9"><model name="m"><link name="a"/><link name="b"/><joint name="j" '
+            'type="prismatic"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis>'
+            "</joint></model></sdf>",
+        ),
+    ],
+)
+def test_a_slide_without_a_range_loses_nothing(urdftool, write, tmp_path, name, text):
+    """Only URDF requires a limit."""
+    source = write(name, text)
+    for kind in ("mjcf", "sdf"):
+        out = tmp_path / f"made.{'xml' if kind == 'mjcf' else 'sdf'}"
+        result = urdftool("export", kind, source, "-o", out, "--overwrite", "--strict", "--verify")
+        assert result.code == 0, result.out + result.err

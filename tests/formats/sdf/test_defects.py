@@ -213,3 +213,14 @@ def test_values_that_a_reader_refuses(said):
     assert [f.code for f in refused(*parts).findings] == ["invalid-sdf-value"]
     text = export(*parts, force=True).files["model.sdf"].decode()
     assert all(f">{word}<" not in text for word in ("down", "x", "sometimes"))
+
+
+def test_a_color_outside_of_0_to_1_is_a_loss():
+    """Libsdformat rejects a file with such a color."""
+    visual = (
+        '<visual><geometry><box size="1 1 1"/></geometry>'
+        '<material name="m"><color rgba="153 0 0 255"/></material></visual>'
+    )
+    written = export(link("a", inertial() + visual))
+    assert "153" not in written.text
+    assert "lossy-material" in rules(written)

@@ -92,16 +92,17 @@ def _build_single(
     ]
     if effort is not None and all(force > effort for force in forces):
         element.set("actuatorfrcrange", format_numbers_text((-effort, effort)))
-    for what, text, severity in _limit_losses(joint):
+    for what, text, severity in _limit_losses(joint, structure.robot.format):
         place = joint.place if joint.limit is None else joint.limit.place
         written.report_loss(what, text, place, kind="joint", name=joint.name, severity=severity)
     return element
 
 
-def _limit_losses(joint: Joint) -> Iterator[tuple[str, str, Severity]]:
+def _limit_losses(joint: Joint, source: str) -> Iterator[tuple[str, str, Severity]]:
+    """Yield code, text and severity of each loss; only URDF requires a limit."""
     limit = joint.limit
     if limit is None:
-        if joint.is_limited:
+        if joint.is_limited and source == "urdf":
             yield (
                 "limit-missing",
                 (

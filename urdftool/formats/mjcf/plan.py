@@ -160,7 +160,8 @@ def _add_armatures(robot: Robot, loads: Mapping[str, JointLoad]) -> dict[str, Jo
 def _set_efforts(robot: Robot, actuators: list[JointActuator]) -> list[Joint]:
     """Return the joints with the effort limits of their servos, which the model has.
 
-    A revolute joint without limits and an effort of zero stay as they are: both are reported.
+    Of a URDF, a joint without limits that needs some and an effort of zero stay as they are: both
+    are reported.
     """
     forces = {one.joint: max(map(abs, one.force_range)) for one in actuators
               if one.force_range is not None and robot.format != "mjcf"}  # fmt: skip
@@ -169,6 +170,8 @@ def _set_efforts(robot: Robot, actuators: list[JointActuator]) -> list[Joint]:
         limit = joint.limit
         if limit is None and joint.type == "continuous":
             limit = Limit(joint.provenance)
+        elif limit is None and robot.format != "urdf":
+            limit = Limit(joint.provenance, -math.inf, math.inf)
         if joint.name in forces and limit is not None and limit.effort != 0:
             joint = replace(joint, limit=replace(limit, effort=forces[joint.name]))
         joints.append(joint)

@@ -192,8 +192,8 @@ def _make_joint(joint: Joint, source: Robot) -> Joint:
         return joint
     limit = origin.limit
     if joint.limit is not None and (limit is None or joint.limit.effort != limit.effort):
-        lower, upper = (limit.lower, limit.upper) if limit is not None else (None, None)
-        limit = replace(joint.limit, lower=lower, upper=upper)
+        bounds = joint.limit if limit is None else limit
+        limit = replace(joint.limit, lower=bounds.lower, upper=bounds.upper)
     settings = joint.settings | origin.settings
     return replace(origin, dynamics=joint.dynamics, limit=limit, settings=settings)
 

@@ -96,8 +96,9 @@ def _add_bounds(node: Node, t: Translation, part: Joint) -> None:
             t.report_note("limit", text, limit, part)
         return
     if limit is None:
-        text = f"joint '{part.name}' has no limits; it moves without limits"
-        t.report_loss("limit", text, part, part)
+        if t.robot.format == "urdf":  # the only format that requires a limit
+            text = f"joint '{part.name}' has no limits; it moves without limits"
+            t.report_loss("limit", text, part, part)
         return
     if part.turns_freely:
         t.report_loss("limit", explain_missing_bounds(part), limit, part)

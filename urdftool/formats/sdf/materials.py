@@ -9,6 +9,7 @@ from ...model.block_elements import list_part_elements
 from ...model.elements import Link, Material, Visual
 from ...model.gazebo_colors import COLORS, PICTURED
 from ...model.materials import resolve_material
+from ...model.numbers import format_numbers_text
 from ...model.settings import Settings, get_text
 from ...source.document import Element
 from .copied_elements import copy_raw_element
@@ -48,6 +49,10 @@ def _get_settings(t: Translation, link: Link, part: Visual, *, has_texture: bool
     if t.robot.format == "sdf":
         return part.appearance
     if own is None or (own.color is None and not has_texture):
+        return {}
+    if own.color is not None and not all(0 <= value <= 1 for value in own.color):
+        text = f"color {format_numbers_text(own.color)} of link '{link.name}' is not exported"
+        t.report_loss("material", f"{text}; SDF takes numbers from 0 to 1", own, link)
         return {}
     shown = convert_material(own)
     return {name: value for name, value in shown.items() if name != "metalness"}

@@ -111,7 +111,9 @@ def report_bad_extension_values(robot: Robot) -> Iterator[Problem]:
     """Report each value of a tag that the model rejects, with the ``kind`` of its value."""
     for one in robot.rejected_settings:
         if one.code == BAD_KEYWORD and one.kind in ("link", "joint"):
-            part = (robot.link if one.kind == "link" else robot.joint)[one.name]
+            part = (robot.link if one.kind == "link" else robot.joint).get(one.name)
+            if part is None:
+                continue  # an export dropped it
             data = {"kind": list_rows(one.tag)[0].kind}
             yield Problem(part, one.fact, at=one.element, data=data)
 
