@@ -46,10 +46,8 @@ def _check(
     """Yield a report for each description, without the cache of reports."""
     if not paths:
         return
-    from .run import check_file  # imports what rules require
-
     if len(paths) < WORTH_IT and not jobs and scheduler is None:  # avoids an import in most calls
-        yield from (check_file(path, options) for path in paths)
+        yield from (_check_file(path, options) for path in paths)
         return
     from ..cluster import map_anywhere
     from ..parallel import count_cores, yield_in_order
@@ -57,17 +55,24 @@ def _check(
     processes = jobs or count_cores()
     workers = 1 if "-" in paths else processes
     if workers > 1 and len(paths) > 1 and scheduler is None:
-        yield check_file(paths[0], options)  # imports the rules before workers are forked
+        yield _check_file(paths[0], options)  # imports the rules before workers are forked
         paths = paths[1:]
     yield from yield_in_order(
         map_anywhere(
-            partial(check_file, options=options),
+            partial(_check_file, options=options),
             paths,
             workers=workers,
             scheduler=scheduler,
             on_lost=_report_lost,
         )
     )
+
+
+def _check_file(path: str, options: Options) -> Report:
+    """Check a description; what rules require is imported where it is checked."""
+    from .run import check_file
+
+    return check_file(path, options)
 
 
 def _report_lost(path: str, loss: Loss) -> Report:
