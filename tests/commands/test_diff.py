@@ -144,7 +144,10 @@ def test_xacro_arguments_belong_to_the_file_before_them(urdftool, repository):
     result = urdftool("diff", repository, "p:=left_", repository, "p:=right_")
     assert result.code == 1
     assert result.out == "link 'right_a'\n  renamed: left_a → right_a\n"
-    assert urdftool("diff", repository, repository, "p:=x_").code == 0
+    assert urdftool("diff", f"HEAD:{repository}", repository, "p:=x_").code == 0
+    same = urdftool("diff", repository, repository, "p:=x_")  # the default and these arguments
+    assert same.code == 1
+    assert same.err.endswith(f"{repository} p:=x_: 1 change in 1 part\n")
 
 
 def test_a_revision_has_its_includes(urdftool, repository, write):

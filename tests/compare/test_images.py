@@ -66,3 +66,11 @@ def test_an_image_is_compared_in_every_format(painted, write, tmp_path, kind):
     assert compare_textures(painted, path) == []
     write("image.png", make_png((0, 255, 0)))
     assert [what for what, _ in compare_textures(painted, path)] == ["image of a visual"]
+
+
+def test_images_that_do_not_exist_are_compared_by_name(write):
+    write("part.obj", MESH)
+    one = write("one.urdf", ROBOT)
+    other = write("other.urdf", ROBOT.replace("image.png", "picture.png"))
+    assert compare_textures(one, one) == []
+    assert compare_textures(one, other) == [("image of a visual", ("image.png", "picture.png"))]

@@ -373,19 +373,18 @@ def test_nothing_is_weighed_by_meshes_of_doubtful_size(tmp_path, urdftool):
     ("comment", "goes"),
     [
         ("", True),
-        (" <!-- urdftool-ignore[empty-dynamics] as measured -->", True),
+        (" <!-- urdftool-ignore[zero-axis] as measured -->", True),
         (" <!-- TODO: as measured -->", False),
     ],
 )
 def test_no_safe_fix_takes_a_comment_away(write, urdftool, comment, goes):
-    limit = f'<limit effort="1">{comment}</limit>'
-    text = ROBOT.format(axis="0 0 1", dynamics=limit).replace("continuous", "fixed")
-    path = write("r.urdf", text.replace('<axis xyz="0 0 1"/>', ""))
-    only = ("--select", "redundant-on-fixed", "--no-cache", "--exit-zero")
+    dynamics = f"<dynamics>{comment}</dynamics>"
+    path = write("r.urdf", ROBOT.format(axis="0 0 1", dynamics=dynamics))
+    only = ("--select", "empty-dynamics", "--no-cache", "--exit-zero")
     urdftool("lint", path, "--fix", *only)
-    assert (limit not in Path(path).read_text()) == goes
+    assert (dynamics not in Path(path).read_text()) == goes
     urdftool("lint", path, "--fix", "--unsafe-fixes", *only)
-    assert "<limit" not in Path(path).read_text()
+    assert "<dynamics" not in Path(path).read_text()
 
 
 def test_comments_are_rewritten_only_when_asked_for(write, urdftool):

@@ -94,7 +94,6 @@ DEFECTS = {
     "empty dynamics": ("empty-dynamics", JOINT, f"{JOINT}<dynamics/>"),
     "no lower bound": ("limit-without-bounds", 'lower="-1"', ""),
     "no upper bound": ("limit-without-bounds", 'upper="1"', ""),
-    "a limit of a fixed joint": ("redundant-on-fixed", '"revolute"', '"fixed"'),
     "half a limit of a fixed joint": (
         "limit-without-effort-or-velocity",
         '"revolute">' + JOINT,

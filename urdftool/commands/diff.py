@@ -57,7 +57,7 @@ def command(
 
     Links, joints, poses, masses, limits, geometry, and elements for simulators and controllers are
     compared. A and B are .urdf or .xacro files, or REV:PATH for a file of a git revision. xacro
-    arguments follow their file; those of B are also used for A if A has none.
+    arguments follow their file; those of B are also used for A if A has none and is another file.
 
     \b
         urdftool diff HEAD:arm.urdf.xacro arm.urdf.xacro
@@ -81,10 +81,11 @@ def command(
     changes = list(compare(a, b, tolerance=limit))
     unread = list(list_unseen(a, b))
     names = one[0], two[0]
+    shown = _format_side(one), _format_side(two)
     if style == "json":
         text = report.to_json(names, changes, limit, unread)
     elif style == "markdown":
-        text = report.format_markdown(names, changes, unread)
+        text = report.format_markdown(shown, changes, unread)
     else:
         text = report.format_text(
             changes, colors=console.has_colors(to_file=output not in (None, "-"))
@@ -93,7 +94,7 @@ def command(
     write_result(text, output, inputs=inputs)
     for note in report.list_notes(unread):
         console.print_note(note)
-    console.print_note(report.summarize(names, changes, unread))
+    console.print_note(report.summarize(shown, changes, unread))
     if changes and a.format != b.format:
         console.print_note(
             "the files have different formats; 'urdftool verify' compares what they mean, without "
@@ -109,7 +110,13 @@ def _split_sides(words: tuple[str, ...]) -> tuple[Side, Side]:
         given = f"{format_count(len(sides), 'file')} given"
         raise click.UsageError(f"{given}, but the command compares two robots")
     (one, a), (two, b) = sides
-    return (one, a or b), (two, b)
+    return (one, a if a or one == two else b), (two, b)
+
+
+def _format_side(side: Side) -> str:
+    """Format a file with its arguments, as they are given."""
+    path, arguments = side
+    return " ".join((path, *(f"{name}:={value}" for name, value in arguments.items())))
 
 
 def _read(

@@ -67,6 +67,9 @@ def _compare_images(
     sides = list(zip((pair.a.robot, pair.b.robot), visuals, strict=True))
     images = [_find_image(*side) for side in sides]
     if images == [None, None]:
+        names_of_files = [_get_texture(*side) for side in sides]
+        if pair.formats[0] == pair.formats[1] and names_of_files[0] != names_of_files[1]:
+            _add(comparison, "textures", names, "image of a visual", names_of_files, visuals)
         _skip_unread_images(pair, comparison, visuals)
     digests = [None if path is None else pair.meshes.get_digest(path) for path in images]
     comparison.record_parts("textures", *images)
@@ -123,6 +126,12 @@ def _get_settings(pair: Pair, robot: Robot, link: Link, visual: Visual) -> Setti
     if "metalness" not in visual.appearance and _find_image(robot, visual) is None:
         settings.pop("metalness", None)  # of an image that does not exist
     return settings
+
+
+def _get_texture(robot: Robot, visual: Visual) -> str:
+    """Return the texture of a visual as it is written; empty if it has none."""
+    material = resolve_material(robot, visual.material)
+    return (material.texture or "") if material is not None else ""
 
 
 def _find_image(robot: Robot, visual: Visual) -> Path | None:

@@ -66,7 +66,7 @@ EQUIPMENT_ROWS = (
 )
 """Properties that are compared in two files of one format."""
 
-NOT_COMPARED = ("other models of a file",)
+NOT_COMPARED = ("other models of a file", "names of visuals and collisions")
 """Parts of a description that are not compared."""
 
 

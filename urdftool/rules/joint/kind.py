@@ -11,11 +11,10 @@ from ..fix import (
     find_element,
     is_computed,
     remove_element,
-    safe,
     set_attribute,
     unsafe,
 )
-from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, ROS, SAFE, UNSAFE, Problem, rule, select_holding
+from ..rule import ANY_FORMAT, ERROR, GAZEBO, INFO, ROS, UNSAFE, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
 from ..xml.vocabulary_table import suggest_word
 
@@ -178,7 +177,7 @@ def _has_one_damping(joint: Joint) -> bool:
     INFO,
     effects={
         "urdfdom, gz, gazebo-classic, mujoco, pybullet, pinocchio, drake": (
-            "ignore them: the joint is fixed"
+            "do not move by them: the joint is fixed"
         ),
     },
     default=False,
@@ -186,8 +185,9 @@ def _has_one_damping(joint: Joint) -> bool:
 def redundant_on_fixed(robot: Robot) -> Iterator[Problem]:
     """A fixed joint has an axis, a limit or dynamics.
 
-    All readers ignore these elements. Exporters write them. Readers that use urdfdom still reject
-    the robot if the ``<limit>`` is incomplete.
+    The joint does not move by them. Exporters write them. PyBullet's ``getJointInfo`` and yourdfpy
+    still return the values. Readers that use urdfdom still reject the robot if the ``<limit>`` is
+    incomplete.
     """
     for joint in robot.joints:
         if joint.is_fixed:
@@ -203,10 +203,10 @@ def redundant_on_fixed(robot: Robot) -> Iterator[Problem]:
                     )
 
 
-@redundant_on_fixed.fix(SAFE)
+@redundant_on_fixed.fix(UNSAFE)
 def remove_from_fixed_joint(problem: Problem, context: FixContext) -> Proposal | None:
     """Remove the element, unless a xacro argument sets the type of the joint."""
     element = find_element(problem)
     if element is None or is_computed(context.get_joint(problem).element, "type"):
         return None
-    return safe(f"remove the <{element.tag}>", remove_element(element))
+    return unsafe(f"remove the <{element.tag}>", remove_element(element))
