@@ -1,6 +1,11 @@
 """Links: masses, shapes, colours, names."""
 
+import subprocess
+
+import numpy as np
 import pytest
+
+from urdftool.model.pose import rotation_from_rpy
 
 from .robots import BOX, CUBE, TWO, WELDED, export, inertial, joint, link, named, names, rules, tree
 
@@ -56,6 +61,38 @@ def test_an_exact_plate_is_left_alone():
     written = export(link("a", inertial(1, (0.1, 0.1, 0.2))))
     assert rules(written) == []
     assert named(tree(written), "link", "a").findtext("inertial/inertia/izz") == "0.2"
+
+
+def make_tilted_rods(count):
+    """Links with the tensor of a rod without radius, each tilted otherwise."""
+    links = [link("base")]
+    for number in range(count):
+        turn = np.array(rotation_from_rpy((0.1 + number, 0.4 * number, 0.2)))
+        full = turn @ np.diag([0.0, 0.2, 0.2]) @ turn.T
+        xy, xz, yz = full[0, 1], full[0, 2], full[1, 2]
+        links.append(link(f"rod{number}", inertial(1, np.diag(full), (xy, xz, yz))))
+        links.append(joint(f"j{number}", "base", f"rod{number}"))
+    return "".join(links)
+
+
+def test_a_tilted_rod_has_a_radius_that_rounding_does_not_hide():
+    written = tree(export(make_tilted_rods(20)))
+    for number in range(20):
+        inertia = named(written, "link", f"rod{number}").find("inertial/inertia")
+        xx, xy, xz, yy, yz, zz = (float(part.text) for part in inertia)
+        low, middle, high = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        assert 5e-8 < (low + middle - high) / high < 2e-7
+        assert high == pytest.approx(0.2, rel=1e-6)
+
+
+@pytest.mark.program("ign")
+def test_tilted_rods_are_accepted(tmp_path):
+    written = export(make_tilted_rods(40), version="1.9")
+    path = tmp_path / "model.sdf"
+    path.write_bytes(written.files[written.main])
+    words = ["ign", "sdf", "-k", str(path)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout.strip()) == (0, "Valid."), done.stderr
 
 
 def test_shapes_keep_their_names_and_are_unique():
