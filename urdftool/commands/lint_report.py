@@ -73,6 +73,7 @@ def report(
     from ..report.findings_formats import as_text
     from ..report.findings_screen import MANY, format_advice
     from ..report.findings_words import (
+        list_completed,
         list_left_out,
         list_rejections,
         list_skipped_rules,
@@ -119,7 +120,12 @@ def report(
             console.print_note(line)
         console.print_note(summarize(outcome))
         left_out = list_left_out(outcome)
-        for line in (*list_skipped_rules(outcome), *list_unread_meshes(outcome), *left_out):
+        for line in (
+            *list_skipped_rules(outcome),
+            *list_completed(outcome),
+            *list_unread_meshes(outcome),
+            *left_out,
+        ):
             console.print_note(line)
         people = style in ("full", "concise") and not output.statistics
         for line in format_advice(outcome.findings, single) if people else ():

@@ -168,6 +168,17 @@ def find_imported_readers(description: Description, targets: frozenset[str]) -> 
     return None
 
 
+def find_project(files: Workspace, folder: Path) -> Path | None:
+    """Return the folder of the Python project or installed package that holds a folder, if any."""
+    below: Path | None = None
+    for place in list_above(folder, files):
+        holds_module = below is not None and files.exists(below / "__init__.py")
+        below = place
+        if _is_packaged(files, place, holds_module):
+            return place
+    return None
+
+
 def is_vendored(files: Workspace, package: Path) -> bool:
     """Tell whether a package of ROS is a copy in a module of a Python project."""
     holds_module = False
@@ -215,14 +226,14 @@ def _read_imports(files: Workspace, folder: str) -> _Imports | None:
     A name in other text, such as a requirement, a module that is imported by its name or a comment,
     counts as use, since it may be one.
     """
-    paths = _list_code(files, folder)
+    paths = list_code_of(files, folder)
     imported: set[str] = set()
     named: set[str] = set()
     of_urdf: set[str] = set()
     keeps_inertia = False
     places_bodies = False
     moved: set[str] = set()
-    for path in paths or ():
+    for path in paths:
         try:
             text = files.read_bytes(path, _BYTES)
         except (OSError, UrdftoolError):
@@ -265,13 +276,14 @@ def _holds_any(text: bytes, words: tuple[bytes, ...]) -> bool:
     return any(word in text for word in words)
 
 
-def _list_code(files: Workspace, folder: str) -> list[str] | None:
-    """Return the files of code below a folder; None if there are too many."""
+@memoize_by_workspace
+def list_code_of(files: Workspace, folder: str) -> list[str]:
+    """Return the files of code below a folder; none if there are too many."""
     paths: list[str] = []
     waiting = [folder]
     for place in waiting:  # the loop appends to this list
         if len(paths) > _FILES or len(waiting) > _FOLDERS:
-            return None
+            return []
         found, folders = files.list_code(place)
         paths += (os.path.join(place, name) for name in found)
         waiting += (os.path.join(place, name) for name in folders)

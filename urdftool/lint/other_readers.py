@@ -75,6 +75,8 @@ def is_for_other_readers(rule: Rule, finding: Finding, used: Use | None) -> bool
     if rule.family == "name" or not _has_readers(finding) or _is_affected(rule, finding, used):
         return False
     if CHAIN in used.readers or SCENE in used.readers:
+        if finding.severity is Severity.INFO:
+            return True
         takes_shapes = SCENE in used.readers or used.readers - {CHAIN}
         return _is_of_dynamics(rule) or (rule.family in _OF_SHAPES and not takes_shapes)
     return True

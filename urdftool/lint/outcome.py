@@ -32,6 +32,8 @@ class Report:
         skipped: Reason why it was not checked; empty if it was.
         error: Error that prevented reading it.
         stopped: Reason why its robot could not be read, so that it was not checked.
+        completed_by: How code of its project completes it before it is loaded, if that is why it
+            was not checked.
         failed_rules: Exception by rule; each is a bug of urdftool.
         skipped_rules: Missing optional library by rule that requires it.
         skipped_fixes: Missing optional library by rule whose fix requires it.
@@ -57,6 +59,7 @@ class Report:
     skipped: str = ""
     error: UrdftoolError | None = None
     stopped: str = ""
+    completed_by: str = ""
     failed_rules: dict[str, str] = field(default_factory=dict)
     skipped_rules: dict[str, str] = field(default_factory=dict)
     skipped_fixes: dict[str, str] = field(default_factory=dict)

@@ -28,6 +28,7 @@ from ..source.location import SourceFile
 from ..source.packages import Packages
 from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
+from .completed_files import find_completing_code
 from .imported_readers import find_imported_readers
 from .merge import merge, sort_findings
 from .moot import Rejections
@@ -119,6 +120,10 @@ def _check_variant(
             except LimitError:
                 raise
             except (SourceError, ModelError) as error:
+                completed_by = find_completing_code(options.workspace, file.path, error)
+                if completed_by:
+                    report.stopped, report.completed_by = error.message, completed_by
+                    return report
                 rule = "not-well-formed" if isinstance(error, XmlError) else "unreadable-model"
                 return _stop(report, find_template_error(error), rule)
             if other is not None:
@@ -347,6 +352,8 @@ def _check_description(
     findings = [
         rejections.remove_moot_effects(one, selected=bool(settings.select)) for one in findings
     ]
+    if used is not None:  # their readers reject the robot for other defects, which come first
+        findings = [one for one in findings if not one.moot or one.severity is Severity.ERROR]
     report.findings = sort_findings(merge(findings))
     rejected = rejections.list_rejecting({finding.code for finding in findings})
     report.rejected = {

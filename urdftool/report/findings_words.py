@@ -92,6 +92,18 @@ def list_unread_meshes(outcome: Outcome) -> Iterator[str]:
         yield f"not checked: {named} {escape_controls(reason)}"
 
 
+def list_completed(outcome: Outcome) -> Iterator[str]:
+    """Yield how many files were not checked because code completes them, for each cause."""
+    files: dict[str, list[str]] = {}
+    for report in outcome.reports:
+        if report.completed_by:
+            files.setdefault(report.completed_by, []).append(report.path)
+    for cause, paths in files.items():
+        first, count = escape_controls(paths[0]), len(paths)
+        named = f"'{first}'" if count == 1 else f"{count} files; the first is '{first}'"
+        yield f"not checked: {escape_controls(cause)}: {named}; lint what the program loads"
+
+
 def list_left_out(outcome: Outcome) -> Iterator[str]:
     """Yield how many findings are left out, because no reader that they name is imported."""
     count = sum(outcome.for_other_readers.values())

@@ -133,13 +133,27 @@ def _compile(expanded: Expanded, workspace: Workspace, limits: Limits) -> Compil
         raise SourceError(
             compiled.error,
             at=expanded.assets[compiled.error_file].element.place,
-            data={"placeholder": word[0]} if word else {},
+            data={"placeholder": word[0]} if word else _find_missing(compiled.error),
         )
     if compiled.error:
         at = expanded.get_element_at(compiled.error_line).place
-        raise ModelError(f"MuJoCo does not compile the model: {compiled.error}", at=at)
+        raise ModelError(
+            f"MuJoCo does not compile the model: {compiled.error}",
+            at=at,
+            data={"lost_name": True} if _LOST_NAME.search(compiled.error) else None,
+        )
     return compiled
 
+
+def _find_missing(error: str) -> dict[str, str]:
+    """Return the file of an error of a missing one, as data."""
+    found = _MISSING.match(error)
+    return {"missing": found[1]} if found else {}
+
+
+_MISSING = re.compile(r"^file '(.+)' does not exist$")
+_LOST_NAME = re.compile(r"XML Error: unknown default (?:class|childclass)|Error: unknown element '")
+"""What MuJoCo says of a name that a model into which it is merged may define."""
 
 _PLACEHOLDER = re.compile("__[A-Z][A-Z0-9_]*__")
 """A word in a path that a program replaces."""

@@ -231,7 +231,11 @@ class _Reader:
         try:
             return read_file(str(path), self.workspace)
         except SourceError as error:
-            raise SourceError(f"file '{name}' {error.message}", at=element.place) from None
+            raise SourceError(
+                f"file '{name}' {error.message}",
+                at=element.place,
+                data={} if self.workspace.exists(path) else {"missing": name},
+            ) from None
 
 
 def _count_parts(element: Element) -> int:

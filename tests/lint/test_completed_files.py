@@ -1,0 +1,63 @@
+"""MJCF files that the code of a project completes before it loads them."""
+
+import json
+
+import pytest
+
+MODEL = """<mujoco><asset><mesh name="m" file="{mesh}"/></asset><worldbody><body>
+<geom type="mesh" mesh="m"/></body></worldbody></mujoco>
+"""
+PART = """<mujoco><worldbody><body><geom class="cube" type="box" size="1 1 1"/></body></worldbody>
+</mujoco>
+"""
+
+
+def _lint(urdftool, tmp_path, code, texts):
+    module = tmp_path / "gym"
+    module.mkdir()
+    (tmp_path / "pyproject.toml").write_text('[project]\nname = "gym"\n')
+    (module / "env.py").write_text(code)
+    for number, text in enumerate(texts):
+        (module / f"scene{number}.xml").write_text(text)
+    result = urdftool("lint", tmp_path, "--format", "json")
+    return json.loads(result.out), result
+
+
+@pytest.mark.parametrize(
+    ("code", "mesh", "cause"),
+    [
+        ("URL = 'https://x/simhive.git'", "../simhive/a.stl", "folder 'simhive' is missing"),
+        ("m = MjModel.from_xml_string(text, assets=files)", "a.stl", "hands files over as assets"),
+        ("URL = 'simhives'", "../simhive/a.stl", ""),
+        ("m = MjModel.from_xml_path('a')", "../assets/a.stl", ""),
+        ("# assets\nm = MjModel.from_xml_path('a')", "../assets/a.stl", ""),
+        ("from_xml_string(text, assets=files); from_xml_path('a')", "a.stl", ""),
+    ],
+)
+def test_files_that_code_completes_are_not_checked_and_no_errors(
+    urdftool, tmp_path, code, mesh, cause
+):
+    report, result = _lint(urdftool, tmp_path, code, [MODEL.format(mesh=mesh)] * 3)
+    rules = {finding["rule"] for finding in report["findings"]}
+    assert result.code == 2
+    assert len(report["summary"]["not_checked"]) == 3
+    assert rules == (set() if cause else {"unreadable-model"})
+    assert (f"{cause}" in result.err and "3 files" in result.err) or not cause
+    if cause:
+        assert result.err.count("lint what the program loads") == 1
+
+
+@pytest.mark.parametrize(
+    ("code", "reported"), [("part = mjcf.from_path('a')", False), ("import mujoco", True)]
+)
+def test_a_part_that_a_program_merges_is_no_error(urdftool, tmp_path, code, reported):
+    report, result = _lint(urdftool, tmp_path, code, [PART])
+    assert ("unreadable-model" in {one["rule"] for one in report["findings"]}) is reported
+    assert result.code == 2
+
+
+def test_a_defect_of_the_file_itself_is_an_error(urdftool, tmp_path):
+    text = PART.replace("<worldbody>", '<option apirate="1"/><worldbody>', 1)
+    code = "m = MjModel.from_xml_string(text, assets=files)\npart = mjcf.from_path('a')"
+    report, _ = _lint(urdftool, tmp_path, code, [text])
+    assert {finding["rule"] for finding in report["findings"]} == {"unreadable-model"}

@@ -1,0 +1,89 @@
+"""Descriptions that the code of a project completes before it loads them.
+
+Such a file names a folder that a program downloads or replaces, gets its files from the program, or
+is a part that a program merges into another. No reader loads it as it lies, which is no defect of
+the file: it is not checked, and the summary says once for each cause why.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path, PurePosixPath
+
+from ..errors import UrdftoolError
+from ..source.packages import shorten_path
+from ..workspace import Workspace
+from .imported_readers import find_project, list_code_of
+
+_GENERIC = frozenset(
+    (
+        *("assets", "meshes", "mesh", "textures", "texture", "visual", "visuals", "collision"),
+        *("collisions", "models", "model", "data", "urdf", "mjcf", "xml", "xmls", "robots"),
+        *("robot", "common", "scene", "scenes", "resources", "include", "stl", "obj", "files"),
+    )
+)
+"""Names of folders that code also mentions for another reason. Chosen from public packages."""
+
+_HANDS_OVER = re.compile(rb"\bfrom_xml_string\([^;]{0,200}?\bassets\b")
+_LOADS_PATH = re.compile(rb"\bfrom_xml_path\(")
+_SETS_FILE = re.compile(rb"""\.set\(\s*["']file["']""")
+_MERGES = re.compile(
+    rb"\bmjcf\.from_(?:path|file|xml_string)\(|\.attach_body\(|\bMjSpec\.from_|\bMujocoXML\b"
+)
+
+
+def find_completing_code(files: Workspace, path: str, error: UrdftoolError) -> str:
+    """Return how code of its project completes a file that cannot be read; empty if none does.
+
+    Args:
+        files: Reads the code.
+        path: Path of the description.
+        error: Why it cannot be read.
+    """
+    missing = error.data.get("missing")
+    if missing is None and not error.data.get("lost_name"):
+        return ""
+    project = find_project(files, Path(os.path.abspath(path)).parent)
+    if project is None:
+        return ""
+    code = [name for name in list_code_of(files, str(project)) if name.endswith(".py")]
+    if missing is None:
+        place = _find_place(files, code, _MERGES.search)
+        return place and f"parts that a program merges into other models ({place})"
+    lost = PurePosixPath(missing)
+    base = Path(error.at.file.path if error.at is not None else path).parent
+    for number, name in enumerate(lost.parts[:-1]):
+        folder = base.joinpath(*lost.parts[: number + 1])
+        if name == ".." or name in _GENERIC or files.exists(folder):
+            continue
+        word = re.compile(rb"(?<![\w-])%s(?![\w-])" % re.escape(os.fsencode(name)))
+        place = _find_place(files, code, word.search)
+        if place:
+            return f"folder '{name}' is missing, which code of the project names ({place})"
+    if lost.suffix.lower() in (".png", ".jpg", ".jpeg"):
+        place = _find_place(files, code, _SETS_FILE.search)
+        if place:
+            return f"code of the project writes the names of files into the XML ({place})"
+    if not _find_place(files, code, _LOADS_PATH.search):
+        place = _find_place(files, code, _HANDS_OVER.search)
+        if place:
+            return f"code of the project hands files over as assets ({place})"
+    return ""
+
+
+def _find_place(
+    files: Workspace, code: list[str], search: Callable[[bytes], re.Match[bytes] | None]
+) -> str:
+    """Return file and line of the first match in code; empty if there is none."""
+    for path in code:
+        try:
+            text = files.read_bytes(path)
+        except (OSError, UrdftoolError):
+            continue
+        match = search(text)
+        if match is not None:
+            line = text.count(b"\n", 0, match.start()) + 1
+            return f"{shorten_path(path)}:{line}"
+    return ""
