@@ -29,7 +29,7 @@ def export_sdf(
     version: str = "",
     fixed_joints: FixedJoints = "",
     uri: Uri = "",
-    base: ChosenBase = "",
+    base: ChosenBase = "auto",
     world: bool = False,
     fix_inertia: FixInertia = "none",
     mesh_dir: str = "meshes",
@@ -49,7 +49,7 @@ def export_sdf(
             target.
         uri: Form of mesh URIs; empty uses the default of the target.
         base: ``"auto"`` decides as the export to MJCF does; ``"fixed"`` adds a joint to the world;
-            ``"free"``; empty for the base of the description, free if it defines none.
+            ``"free"``; empty keeps that of the description, free if it defines none.
         world: Whether to write a world with ground and sun around the model.
         fix_inertia: ``"lift"``, ``"balance"`` or ``"box"`` repairs physically inconsistent tensors.
         mesh_dir: Folder of the meshes, relative to the model.

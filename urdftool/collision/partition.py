@@ -152,11 +152,12 @@ class Partition:
         for volume, _, plane in sorted(ranked, key=lambda item: item[:2])[
             : 2 * _PRICED if dense else _PRICED
         ]:
-            both = self._clip_part(part, plane)
+            shared = _VOLUME * part.cost * volume / part.volume
+            both = self._clip_part(part, plane, least - shared)
             if both is None:
                 continue
             low, high = sorted(p.cost for p in both)
-            score = high + _OTHER * low + _VOLUME * part.cost * volume / part.volume
+            score = high + _OTHER * low + shared
             if score < least:
                 best, least = both, score
         return best
@@ -179,12 +180,15 @@ class Partition:
                 for normal, offset in zip(self.axes, low + share * (high - low), strict=True):
                     yield np.append(normal, offset)
 
-    def _clip_part(self, part: Part, plane: Points) -> list[Part] | None:
-        made = []
+    def _clip_part(self, part: Part, plane: Points, most: float) -> list[Part] | None:
+        """Cut a part by a plane; return None if a side is flat, or costs more than a bound [m]."""
+        made: list[Part] = []
+        if most <= 0:
+            return None
         for side in (plane, -plane):
             points, faces = clip(part.points, part.faces, side, _FLUSH * self.size)
             found = self._make_part(points, faces, np.concatenate([part.cuts, side[None]]))
-            if found is None:
+            if found is None or found.cost >= most:
                 return None
             made.append(found)
         return made

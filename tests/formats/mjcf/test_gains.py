@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 import urdftool
+from tests.formats.test_standing_pose import quadruped
 from urdftool.errors import ConfigError
 from urdftool.formats.common.actuator_config import read_actuator_config
 from urdftool.formats.common.joint_loads import GRAVITY, JointLoad, compute_joint_loads
@@ -40,6 +41,14 @@ FINGERS = robot(
     joint("left_knee", "base", "one", inside=LIMIT),
     joint("right_knee", "base", "two", inside=LIMIT),
 )  # fmt: skip
+
+
+def test_the_sag_of_a_robot_on_its_feet_is_said_to_be_that_at_rest(write):
+    dog = export(write("dog.urdf", quadruped()))
+    for written, rocks in ((dog, True), (export(write("r.urdf", FINGERS)), False)):
+        (gains,) = [one for one in written.losses if one.code == "lossy-gains"]
+        assert "at rest, they sag by at most" in gains.message
+        assert ("the robot may rock by more, which --verify steps" in gains.message) is rocks
 
 
 def test_a_placeholder_effort_is_bounded_by_the_inertia(write):

@@ -174,12 +174,14 @@ CUBE = """<robot name="c"><link name="a"><inertial><mass value="1"/>
 
 def test_the_start_on_the_ground_is_in_the_world_and_named(urdftool, write, tmp_path):
     path = write("c.urdf", CUBE.format(""))
-    done = urdftool("export", "sdf", path, "-o", "out", "--world", "--verify", "-v")
+    done = urdftool(
+        *("export", "sdf", path, "-o", "out", "--world", "--verify", "-v", "--base", "free")
+    )
     assert done.code == 0
     assert "its root is at z = 0.2 m; world.sdf places it there" in done.err
     assert "<pose>0 0 0.2 0 0 0</pose>" in (tmp_path / "out/world.sdf").read_text()
     assert "0.2 0 0 0" not in (tmp_path / "out/model.sdf").read_text().partition("<collision")[0]
-    done = urdftool("export", "sdf", path, "-o", "alone", "-v")
+    done = urdftool("export", "sdf", path, "-o", "alone", "-v", "--base", "free")
     assert "spawn it there (-z 0.2)" in done.err
     assert "initial joint positions" not in done.err
 

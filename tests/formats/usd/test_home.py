@@ -39,6 +39,15 @@ def test_home_and_gains_are_those_of_mjcf(dog, tmp_path):
         assert stiffness == pytest.approx(gains[name], rel=1e-6)
 
 
+def test_the_height_of_a_free_root_is_that_of_mjcf_and_noted(dog, write):
+    home = find(tree(export_mjcf(dog, file="r.xml")), "key", "home").get("qpos").split()
+    (start,) = [one for one in export(dog, file="r.usda").losses if one.code == "lossy-start"]
+    assert start.data["height"] == float(home[2]) > 0.3
+    assert f"if its root is at z = {float(home[2]):g} m; the stage has it at z = 0" in start.message
+    fixed = export(dog, file="r.usda", base="fixed")
+    assert "lossy-start" not in rules(fixed)
+
+
 def test_a_servo_is_critically_damped(dog, tmp_path):
     """A calf of 0.2 kg whose center is in the joint: I = 0.002 kg·m² about the axis.
 

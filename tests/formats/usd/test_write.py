@@ -97,6 +97,17 @@ def test_an_inconsistent_inertia_is_refused_unless_repaired(stage):
     assert ("lossy-inertia", "b") in codes(written)
 
 
+def test_an_inconsistent_inertia_of_what_never_moves_is_repaired_and_named(stage):
+    _, written = stage(
+        link("a", inertia=SINGULAR),
+        joint("f", "a", "b"),
+        link("b", inertia=SINGULAR),
+        joint("j", "b", "c", "continuous"),
+        link("c"),
+    )
+    assert {("lossy-inertia", "a"), ("lossy-inertia", "b")} <= set(codes(written))
+
+
 def test_a_moment_below_the_floor_of_newton_is_raised(stage):
     tensor = '<inertia ixx="1e-14" ixy="0" ixz="0" iyy="1e-14" iyz="0" izz="1e-14"/>'
     result, written = stage(link("a", inertia=tensor))

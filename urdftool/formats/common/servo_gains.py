@@ -79,6 +79,7 @@ class Gain:
             joints do not move, for a gain that would else diverge at a longer step; None for
             critical damping while they are free.
         is_weak: Whether the effort limit is below the load at home.
+        is_carried: Whether the ground carries what the joint moves.
     """
 
     value: float
@@ -87,6 +88,7 @@ class Gain:
     sag: float = 0.0
     damping: float | None = None
     is_weak: bool = False
+    is_carried: bool = False
 
 
 def choose_position_gain(
@@ -111,7 +113,7 @@ def choose_position_gain(
     damping = _round(2 * math.sqrt(value * load.inertia)) if is_stiff else None
     if effort and load.force > effort and not load.is_carried:  # by the ground
         return Gain(value, is_bounded, force, damping=damping, is_weak=True)
-    return Gain(value, is_bounded, force, load.force / value, damping)
+    return Gain(value, is_bounded, force, load.force / value, damping, is_carried=load.is_carried)
 
 
 def compute_damping(gain: Gain, load: JointLoad, timestep: float = TIMESTEP) -> float:
@@ -178,7 +180,9 @@ def report_gains(
     most = max(assumed, key=lambda name: assumed[name].sag)
     sag = assumed[most].sag
     if sag > 0:
-        text += f"; at home they sag by at most {sag:.2g} (joint '{most}')"
+        text += f"; at home, at rest, they sag by at most {sag:.2g} (joint '{most}')"
+        if assumed[most].is_carried:
+            text += "; on the ground, the robot may rock by more, which --verify steps"
     weak = [name for name, gain in assumed.items() if gain.is_weak]
     if weak:
         written.advice.append(

@@ -89,10 +89,10 @@ class Options:
     )
     base: ChosenBase = declare(
         "",
-        "Base of the robot: auto (as export mjcf decides), fixed by a joint to the world, or "
-        "free.  [default: as the description defines it; free if it does not]",
+        "Base of the robot: fixed by a joint to the world, free, or auto: free for robots with "
+        "legs or driven wheels, or if the file defines it so, as for export mjcf.",
         words=get_args(ChosenBase)[1:],
-        metavar="BASE",
+        offered="auto",
     )
     world: bool = declare(False, "Write a world with the model, a ground and a sun.", kind=bool)
     force: bool = declare(False, FORCE)

@@ -76,6 +76,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     names = make_names(robot, anchored=plan.anchored)
     written = Written(options.file or MODEL, renamed=names.renamed)
     written.losses += decided.losses
+    written.summary += decided.summary
     report_uncopied(robot, options, written)
     settings = choose_joint_settings(robot, options, written)
     t = Translation(robot, options, plan, names, meshes, written, settings)
@@ -208,4 +209,5 @@ def apply_base(robot: Robot, base: ChosenBase, written: Written) -> Robot:
         name=roots[0].name,
         severity=Severity.INFO,
     )
+    written.summary.append(f"fixed base ({reason})")
     return weld_base(replace(robot, base=Base(robot.provenance, False, find_model_origin(robot))))

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ...diagnostic import Severity
 from ...model.elements import Joint
 from ...model.mechanism import JointActuator
 from ...model.pose import Pose
 from ..common.actuator_config import JointSettings
 from ..common.drive_choice import AUTO, Drive, list_drives
-from ..common.floor import lift_to_floor
+from ..common.floor import NEAT, lift_to_floor
 from ..common.holding_pose import choose_holding_positions
 from ..common.home_positions import choose_home_positions
 from ..common.joint_loads import JointLoad, compute_joint_loads
@@ -78,11 +79,30 @@ def plan_home(
         positions = choose_holding_positions(tree, boxes, chosen, positions, written)
         report_support(tree, boxes, positions, written)
         pose = lift_to_floor(tree, boxes, positions, pose)
+        _report_height(bodies, pose.translation[2], written)
         ground = measure_ground(tree, boxes, positions, pose)
     report_open_loops(robot, positions, written)
     masses = {name: one.body for name, one in inertias.items()}
     loads = compute_joint_loads(tree, masses, positions, pose, ground)
     return Home(positions, pose, tree, ground, loads)
+
+
+def _report_height(bodies: Bodies, height: float, written: Written) -> None:
+    """Report the height of the root [m] at which a free robot stands on the floor."""
+    place = bodies.root_pose.translation[2]
+    if abs(height - place) < NEAT:
+        return
+    root = bodies.robot.tree.roots[0]
+    written.report_loss(
+        "start",
+        f"the lowest point of the robot is at z = 0 if its root is at z = {height:g} m; the stage "
+        f"has it at z = {place:g}: place the robot there, above the ground of the scene",
+        root.place,
+        kind="link",
+        name=root.name,
+        severity=Severity.INFO,
+        data={"height": height},
+    )
 
 
 def plan_servos(

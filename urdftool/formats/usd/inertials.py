@@ -76,9 +76,11 @@ def make_inertias(
     found: dict[str, BodyInertia] = {}
     wrong: list[Finding] = []
     read = _read(bodies, written)
+    static = [] if bodies.free else bodies.find_rigid_groups().get(bodies.base, [])
     for link in bodies.links:
         if has_mass(link):
-            body, defects = _repair(bodies, link, read[link.name], options, written)
+            is_static = link.name in static
+            body, defects = _repair(bodies, link, read[link.name], options, written, is_static)
             wrong += defects
         else:
             body = _give_mass(bodies, link, written)
@@ -123,16 +125,20 @@ def _give_mass(bodies: Bodies, link: Link, written: Written) -> SpatialInertia:
 
 
 def _repair(
-    bodies: Bodies, link: Link, body: SpatialInertia, options: Options, written: Written
+    bodies: Bodies,
+    link: Link,
+    body: SpatialInertia,
+    options: Options,
+    written: Written,
+    is_static: bool,
 ) -> tuple[SpatialInertia, list[Finding]]:
     """Return a link's mass properties, repaired if physically inconsistent, and the defects."""
     excess = get_excess(body.tensor, body.mass)
     if excess <= ROUNDING:
         return body, []
-    static = not bodies.free and link.name == bodies.base
     before = f"principal moments {format_moments_text(body.tensor)} kg·m²"
     defects = []
-    if options.fix_inertia == "none" and not static and excess > WRITTEN_ROUNDING:
+    if options.fix_inertia == "none" and not is_static and excess > WRITTEN_ROUNDING:
         code = "inertia-triangle-inequality"
         text = (
             f"inertia of link '{link.name}' is physically inconsistent: {before} (none may be "
@@ -149,7 +155,7 @@ def _repair(
         lift=find_nearest_consistent,
     )
     if not defects:
-        held = "; it is fixed to the world and does not move" if static else ""
+        held = "; it is fixed to the world and does not move" if is_static else ""
         written.report_loss(
             "inertia",
             f"inertia of link '{link.name}' is physically inconsistent ({before}): {how} to "
