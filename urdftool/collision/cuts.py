@@ -29,7 +29,7 @@ _TOLERANCE = 0.05  # part of the error that dropping hull vertices may use
 _FINEST = 0.002  # relative tolerance of hulls below which vertices are not worth it
 _COVERED = 0.001  # distance outside all pieces, relative to the size, that is ignored
 _ENCLOSED = 0.02  # part of the area that is enclosed, up to which a small mesh is cut itself
-_SEEN = 0.25  # part of the goal below which a point is on the surface of a part
+_SEEN = 0.25  # part of its reach up to which a point may be deep in a part, if that is a gap
 _HELPS = 0.9  # part of the error that a repetition must give to be worth its pieces
 _SMALL = 1000  # triangles of such a mesh
 
@@ -53,13 +53,13 @@ class Decomposition:
         The deepest points are then deep in no part, and more cuts do not open the gap.
 
         Args:
-            goal: Cost [m] up to which the parts were cut.
+            goal: Cost [m] up to which the parts were cut; a smaller depth in a part is no cause.
         """
         points, reach = self.deviation.worst, self.deviation.depth
         if not len(points) or self.measures.buried < self.measures.hausdorff:
             return False
         deepest = points[reach > _HELPS * reach.max()]
-        return float(self.estimate_burial(deepest).max()) < _SEEN * goal
+        return float(self.estimate_burial(deepest).max()) < min(goal, _SEEN * reach.max())
 
 
 class PlaneCutter:
