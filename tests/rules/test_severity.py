@@ -217,3 +217,33 @@ def test_a_plane_is_an_extension_of_pybullet(write, plane, targets, severity):
     (finding,) = check(path, select=("unsupported-shape",), targets=targets)
     assert finding.severity.label == severity
     assert ("only PyBullet reads" in finding.message) == ("normal" in plane)
+
+
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [
+        (robot(LINK.format("a", "")), "missing-inertial"),
+        (
+            f'<robot name="__m__">{LINK.format("a", INERTIAL.format("", 1, 0.1))}</robot>',
+            "reserved-name",
+        ),
+    ],
+)
+def test_gazebo_rejects_a_robot_without_bodies_and_one_with_a_reserved_name(write, text, rule):
+    """As ``sdf::Root`` does: a model must have a link, and names like __m__ are reserved."""
+    assert [level for _, level in levels(write("r.urdf", text), rule, targets=["gz"])] == ["error"]
+
+
+@pytest.mark.parametrize(
+    ("part", "readers"),
+    [
+        (INERTIAL.format("", "${mass}", 0.1), ["mujoco", "drake"]),
+        (BOX.format("collision", "${size}"), ["mujoco"]),
+        (BOX.format("visual", "${size}"), []),
+    ],
+)
+def test_an_unexpanded_number_is_rejected(write, part, readers):
+    path = write("r.urdf", robot(LINK.format("a", part)))
+    (finding,) = check(path, select=["unexpanded-expression"])
+    rejecting = [one.partition(":")[0] for one in finding.effects if "rejects the file" in one]
+    assert rejecting == readers

@@ -76,12 +76,12 @@ def gravity_off_everywhere(robot: Robot) -> Iterator[Problem]:
     },
 )
 def reserved_name(robot: Robot) -> Iterator[Problem]:
-    """A link or joint has a name that SDF reserves.
+    """A robot, link or joint has a name that SDF reserves.
 
     ``world`` is the fixed world and may only be the root. Names with two underscores at both ends,
     such as ``__model__``, are reserved. Gazebo rejects the model.
     """
-    parts: list[Link | Joint] = [*robot.links, *robot.joints]
+    parts: list[Robot | Link | Joint] = [robot, *robot.links, *robot.joints]
     for part in parts:
         name = part.name
         if len(name) > 4 and name.startswith("__") and name.endswith("__"):

@@ -106,6 +106,14 @@ def missing_inertial(
             yield report_massless(robot)
         return
     in_gazebo = not targets.isdisjoint(GAZEBO)
+    if in_gazebo and robot.links and all(link.is_frame for link in robot.links):
+        yield Problem(
+            robot,
+            "no link of the robot has a mass or a shape; Gazebo needs a link with mass",
+            severity=ERROR,
+            effects=("gz, gazebo-classic (root)",),
+        )
+        return
     tops: dict[str, Link] | None = None
     kept = find_kept_links(robot)
     for link in robot.links:

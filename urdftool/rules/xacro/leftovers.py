@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from ...model.urdf_schema import VOCABULARY
 from ...source.description import Description
 from ...source.document import Element
 from ...source.location import Place
@@ -31,6 +32,8 @@ _BRACED = re.compile(r"(?<!\$)\{(\w+)\}")
         "urdfdom (robot)": (
             "takes it as a name; if a number is required, the link loses its shapes"
         ),
+        "mujoco (number)": "rejects the file: a number is required",
+        "drake (number)": "rejects the file: a number is required",
         "gz, gazebo-classic (block)": (
             "ignore a reference with it; a friction with it aborts the process (sdformat 12.3)"
         ),
@@ -73,7 +76,7 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 f"'{_shorten(text)}' is not expanded{more}; {remedy}",
                 at=place,
                 severity=INFO if user else WARNING if meant else None,
-                effects=_select_effects(element),
+                effects=tuple(dict.fromkeys(e for one, *_ in found for e in _select_effects(one))),
             )
         return
     if not found:
@@ -114,7 +117,19 @@ def _select_effects(element: Element) -> tuple[str, ...]:
         return ("gz, gazebo-classic (plugin)",)
     if tags and tags[-1] == "gazebo":
         return ("gz, gazebo-classic (block)",)
-    return ("urdfdom (robot)",) if not tags or tags[-1] in ("link", "joint", "material") else ()
+    if tags and tags[-1] not in ("link", "joint", "material"):
+        return ()
+    return ("urdfdom (robot)", *_select_rejecting(element, tags))
+
+
+def _select_rejecting(element: Element, tags: list[str]) -> Iterator[str]:
+    """Yield the effects of the readers that reject a text in a number of an element."""
+    numbers = VOCABULARY[element.tag].numbers if element.tag in VOCABULARY else {}
+    texts = [name for name in numbers if is_unexpanded(element.get(name) or "")]
+    if set(texts) - {"velocity"} and not {"visual", "material"} & {*tags}:
+        yield "mujoco (number)"
+    if texts and {"inertial", "joint"} & {*tags}:
+        yield "drake (number)"
 
 
 def _may_be_unexpanded(element: Element) -> bool:
