@@ -337,3 +337,21 @@ def test_declared_groups_and_causes_are_of_rules():
     assert rules["git-lfs-pointer"].group == "repository"
     for rule in rules.values():
         assert set(rule.caused_by) <= set(rules) - {rule.name}
+
+
+@pytest.mark.parametrize(("count", "expected"), [(2, 2), (3, 1)])
+def test_one_defect_in_copies_of_a_file_is_one_finding(tmp_path, urdftool, count, expected):
+    (tmp_path / ".git").mkdir()
+    shape = '<geometry><box size="1 1 1"/></geometry><material name="grey"/>'
+    text = f'<robot name="a"><link name="a"><visual>{shape}</visual></link></robot>'
+    for number in range(count):
+        (tmp_path / f"{number}.urdf").write_text(text)
+    report = json.loads(urdftool("lint", tmp_path, "--format", "json").out)
+    found = [one for one in report["findings"] if one["rule"] == "undefined-material"]
+    assert len(found) == expected
+    places = [
+        member["path"]
+        for one in found
+        for member in one.get("group", {"members": [one]})["members"]
+    ]
+    assert len(places) == count

@@ -29,6 +29,9 @@ More about one robot are one finding. Errors are each reported. Chosen, no sourc
 
 _OF_ANY_RULE = Group("robot", "", ())
 
+COPIES = 3
+"""Number of files from which findings with one message are one: copies of a robot. Chosen."""
+
 NAMES = 5
 """Maximum number of names in the message of a group; the others are counted. Chosen, no source."""
 
@@ -57,7 +60,37 @@ def group(findings: Iterable[Finding], robots: Mapping[Any, int] | None = None) 
         robots: Index of the description of each finding; without it, all belong to one.
     """
     shown = [f for f in findings if not (f.moot and f.severity is Severity.INFO)]
-    return sort_findings(_merge_groups(_nest_consequences(shown), robots or {}))
+    return sort_findings(_merge_copies(_merge_groups(_nest_consequences(shown), robots or {})))
+
+
+def _merge_copies(findings: list[Finding]) -> list[Finding]:
+    """Merge findings that say the same of at least ``COPIES`` files of one repository."""
+    copies: dict[Any, list[Finding]] = {}
+    for finding in findings:
+        place = finding.location
+        key: Any = id(finding)
+        if not finding.unchecked and not finding.consequences:
+            effects = tuple(finding.effects.items())
+            where = _find_repository(os.path.dirname(os.path.abspath(place.path)))
+            key = finding.code, finding.severity, finding.message, effects, finding.variants, where
+        copies.setdefault(key, []).append(finding)
+    merged = []
+    for found in copies.values():
+        files = len({finding.location.path for finding in found})
+        if files < COPIES:
+            merged += found
+            continue
+        members = [member for finding in found for member in finding.members or (finding,)]
+        whole = _as_one(found)
+        merged.append(
+            replace(
+                whole,
+                members=members,
+                group=Group("repository", "", found[0].message),
+                message=f"{found[0].message} (and in {files - 1} more files)",
+            )
+        )
+    return merged
 
 
 def _nest_consequences(findings: list[Finding]) -> list[Finding]:
