@@ -161,7 +161,7 @@ def test_a_link_without_friction_needs_a_block_and_one_without_a_color_does_not(
     foot = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
     text = robot(
         LINK.format("base"),
-        f'<link name="left_caster">{foot}</link>',
+        f'<link name="left_caster">{MASS}{foot}</link>',
         f'<link name="arm">{BLUE}</link>',
         JOINT.format("j", "revolute", "base", "left_caster", LIMIT.format(-1, 1)),
         JOINT.format("k", "fixed", "base", "arm", ""),

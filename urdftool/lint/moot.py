@@ -1,4 +1,4 @@
-"""Removal of effects on readers that reject the robot for another defect."""
+"""Removal of effects on readers that do not get the robot, or the part, for another defect."""
 
 from __future__ import annotations
 
@@ -12,10 +12,13 @@ from .. import rules
 from ..finding import Finding
 from ..model.elements import Collision, Mesh, Robot, Visual
 from ..model.mesh_formats import find_rejecting_readers, get_suffix
-from ..rules.gazebo.lumped_model import find_kept_links, is_named_as_link
+from ..rules.gazebo.lumped_model import find_kept_links, find_omitted_links, is_named_as_link
+from ..rules.inertia.bodies import find_massless_pairs
 from ..rules.inertia.massless import has_bare_moved_body
 from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
-from ..rules.mujoco import find_rejected_by_mujoco
+from ..rules.mesh.mesh_uses import get_mesh_uses
+from ..rules.mujoco import find_rejected_by_mujoco, get_assumed_package
+from ..rules.package.resolution import is_in_own_package
 from ..rules.rule import GAZEBO
 from ..source.document import Element
 
@@ -38,6 +41,18 @@ _OF_FILES = (
 )
 """Rules that report files which a reader does not find."""
 
+_OF_OMISSION = (
+    "missing-inertial",
+    "incomplete-inertial",
+    "zero-mass",
+    "massless-moving-body",
+    "massless-root-body",
+)
+"""Rules that report links which Gazebo omits."""
+
+_OF_GEOMETRY = ("collision", "mesh", "visual")
+"""Families of rules about shapes."""
+
 _IRREGULAR = {"have": "has", "do": "does", "are": "is", "go": "goes"}
 
 
@@ -50,7 +65,7 @@ def _read_table() -> dict[str, dict[str, list[str]]]:
 
 
 class Rejections:
-    """Readers that reject one robot, with the rules that report it.
+    """What readers do not get of one robot: all of it, with the rules that report it, or parts.
 
     Args:
         robot: The robot; None if it could not be read.
@@ -60,11 +75,15 @@ class Rejections:
         """Read which effects are rejections, as recorded by ``python -m tests.effects``."""
         self._table = _read_table()
         self._by_reader: dict[str, set[str]] = {}
+        self._omitted: frozenset[str] = frozenset()  # links that Gazebo omits
+        self._omitted_joints: frozenset[str] = frozenset()
+        self._without_shapes: set[str] = set()
         if robot is not None:
             self._add_massless(robot)
             if robot.xml is not None and has_undeclared_prefix(robot.xml):
                 self._by_reader["newton"] = set()  # run with 1.8: its parser is ElementTree
             self._add_meshes(robot)
+            self._add_missing_files(robot)
 
     def _add_massless(self, robot: Robot) -> None:
         """Add rejections that are reported by rules which are off for some targets."""
@@ -73,12 +92,32 @@ class Rejections:
             rejecting = set() if kept else {"massless-root-body"}
             if any(is_named_as_link(robot, joint, kept) for joint in robot.joints):
                 rejecting.add("link-joint-name-clash")
+            if any(find_massless_pairs(robot)):
+                rejecting.add("zero-mass")
+            if kept:
+                self._omitted = omitted = frozenset(find_omitted_links(robot, kept))
+                self._omitted_joints = frozenset(j.name for j in robot.joints if j.child in omitted)
             if rejecting:
                 self._by_reader.update((reader, set(rejecting)) for reader in GAZEBO)
         if has_bare_moved_body(robot):
             self._by_reader["mujoco"] = {"massless-moving-body"}
         if has_inertia_that_mujoco_rejects(robot):
             self._by_reader.setdefault("mujoco", set()).add("singular-inertia")
+
+    def _add_missing_files(self, robot: Robot) -> None:
+        """Add readers that reject the robot, or its shapes, for a file that they do not find."""
+        source = robot.source
+        if source is None:
+            return
+        for use in get_mesh_uses(robot, source):
+            lost = bool(use.missing_package) and not is_in_own_package(use, source)
+            if lost or get_assumed_package(use, source):
+                self._by_reader.setdefault("drake", set()).update(_OF_FILES)
+                self._without_shapes.add("pinocchio")
+            if lost:
+                self._by_reader.setdefault("pybullet", set()).update(_OF_FILES)
+            if use.path is not None and not use.exists:
+                self._without_shapes.add("pinocchio")
 
     def _add_meshes(self, robot: Robot) -> None:
         """Add rejections for the format of a mesh, for any targets."""
@@ -130,13 +169,29 @@ class Rejections:
         effects = {}
         for key, effect in finding.effects.items():
             readers = key.split(", ")
-            left = [r for r in readers if finding.code in self._by_reader.get(r, {finding.code})]
+            left = [reader for reader in readers if self._gets(reader, finding)]
             if left:
                 one = len(left) == 1 < len(readers)
                 effects[", ".join(left)] = convert_to_singular(effect) if one else effect
         if effects == finding.effects:
             return finding
         return replace(finding, effects=effects, moot=not effects and not selected)
+
+    def _gets(self, reader: str, finding: Finding) -> bool:
+        """Tell whether a reader gets what a finding is about, or the finding says that it does not.
+
+        Shapes of a robot are not in pinocchio's model if one of their files is missing.
+        """
+        rule = finding.code
+        if rule not in self._by_reader.get(reader, {rule}):
+            return False
+        if reader in GAZEBO and rule not in _OF_OMISSION:
+            named = self._omitted_joints if finding.kind == "joint" else self._omitted
+            if finding.name in named or (finding.owner or finding.name) in named:
+                return False
+        if reader in self._without_shapes and rule not in _OF_FILES:
+            return rules.FAMILY_OF.get(rule) not in _OF_GEOMETRY
+        return True
 
 
 def has_undeclared_prefix(element: Element, declared: frozenset[str] = frozenset()) -> bool:
@@ -162,7 +217,6 @@ def _has_flat_first_object(robot: Robot) -> bool:
 
     It reads the first object alone, and rejects one without a volume (run with MuJoCo 4.0).
     """
-    from ..rules.mesh.mesh_uses import get_mesh_uses
     from ..rules.mesh.obj_objects import is_first_object_flat
 
     if robot.source is None:

@@ -315,6 +315,8 @@ def _check_description(
                 finding = _convert_finding(rule, problem, settings, targets, robot)
                 if finding is None:
                     continue
+                if finding.effects:  # also of one that is off: its readers reject the robot
+                    rejections.add(rule.name, rule.select_keys(problem.effects))
                 if not settings.is_pedantic_on(rule.name):
                     is_off = (
                         problem.pedantic
@@ -330,8 +332,6 @@ def _check_description(
                         continue
                     finding = drop_other_effects(finding, used)
                 findings.append(finding)
-                if finding.effects:
-                    rejections.add(rule.name, rule.select_keys(problem.effects))
                 if options.fixes and report.format == "urdf" and rule.name in FIXES:
                     origins[id(finding)] = problem, subjects["document"]
     suppressions, wrong = read_suppressions(documents)

@@ -7,30 +7,49 @@ from collections.abc import Iterator, Set
 from ...model.block_elements import list_model_elements
 from ...model.elements import Joint, Robot
 from ...source.document import Element
-from ..inertia.bodies import compute_mass, find_rigid_bodies
-from .lumping import is_lumped
+from .lumping import get_lumped_body, is_lumped
+
+_NO_MASS = 1e-6
+"""Mass [kg] up to which sdformat 12.3 takes one as 0 (run; gz::math::equal)."""
 
 
 def find_kept_links(robot: Robot) -> set[str] | None:
-    """Find the links that sdformat 12.3 writes: bodies with mass on bodies with mass.
+    """Find the links that sdformat 12.3 writes: bodies with mass on links with mass.
 
     A body has the name of its topmost link. sdformat omits all links below a body without mass, and
-    all links if the root has no mass.
+    all links if the root has no mass. It also omits those below a link that is lumped and has no
+    mass with the links lumped into it, though the body has one.
 
     Returns:
         The names, or None if the robot is not one tree, of which sdformat reads nothing.
     """
     if len(robot.tree.roots) != 1:
         return None
+    masses: dict[str, float] = {}
+    for name in reversed(robot.tree.order):
+        children = (joint.child for joint in robot.tree.get_child_joints(name))
+        lumped = (child for child in children if is_lumped(robot, child))
+        masses[name] = robot.link[name].mass + sum(masses.get(c, 0.0) for c in lumped)
     kept: set[str] = set()
-    owner: dict[str, str] = {}
-    for top, links in find_rigid_bodies(robot).items():
-        owner.update((link.name, top) for link in links)
-        joint = robot.tree.get_parent_joint(top)
-        held = joint is None or joint.parent == "world" or owner.get(joint.parent) in kept
-        if held and top != "world" and compute_mass(links) > 0:
-            kept.add(top)
+    held: set[str] = set()  # links on which a joint keeps its child
+    for name in robot.tree.order:
+        joint = robot.tree.get_parent_joint(name)
+        has_mass = abs(masses[name]) > _NO_MASS
+        if is_lumped(robot, name):
+            if has_mass and get_lumped_body(robot, name) in kept:
+                held.add(name)
+        elif has_mass and (joint is None or joint.parent == "world" or joint.parent in held):
+            held.add(name)
+            if name != "world":
+                kept.add(name)
     return kept
+
+
+def find_omitted_links(robot: Robot, kept: Set[str]) -> Iterator[str]:
+    """List the links that Gazebo omits, with the links of :func:`find_kept_links`."""
+    for name in robot.tree.order:
+        if name != "world" and get_lumped_body(robot, name) not in kept:
+            yield name
 
 
 def is_joint_kept(robot: Robot, joint: Joint, kept: Set[str]) -> bool:

@@ -59,6 +59,9 @@ _AS_PART = (
 )
 _IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-classic (part)"}
 
+_LUMPED = {"gz, gazebo-classic (part)", "pinocchio, KDL, drake"}
+"""Effects on a link that is fixed to one with a mass: the body keeps its mass."""
+
 
 @rule(
     WARNING,
@@ -179,7 +182,7 @@ def missing_inertial(
             hint=INERTIAL_HINT if needs_mass else "",
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
-            effects=_select_effects(robot, link, case),
+            effects=_select_effects(robot, link, case) - (_LUMPED if outcome == "part" else set()),
             alike=outcome,
             pedantic=outcome == "static"
             or (severity is not ERROR and is_massless_scene(robot))

@@ -49,19 +49,20 @@ def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
 @rule(
     WARNING,
     effects={
-        "mujoco, drake, KDL": "normalize it",
-        "urdfdom, gz, gazebo-classic, pybullet": (
-            "keep its length; in PyBullet the joint then moves by a wrong amount"
-        ),
+        "gz, mujoco, drake, KDL": "accept it",
+        "urdfdom": "keeps its length",
+        "pybullet": "accelerates the joint by another amount under torque and gravity",
     },
+    of_motion=True,
 )
 def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
     """The axis of a moving joint is not a unit vector.
 
-    The URDF specification requires a unit vector, and urdfdom keeps the written length. MuJoCo,
-    Drake and KDL normalize it. In PyBullet, and in code that multiplies the joint position by the
-    axis, the joint moves by a wrong amount. ``tolerance`` is the difference from length 1 that is
-    ignored.
+    The URDF specification requires a unit vector, and urdfdom keeps the written length, also for
+    code that multiplies the joint position by the axis. MuJoCo, Drake, KDL and new Gazebo normalize
+    it. PyBullet normalizes it for positions, and reaches commanded positions and velocities, but
+    not for accelerations: at length 2, a torque on a free joint turns it a quarter as far.
+    ``tolerance`` is the difference from length 1 that is ignored.
     """
     for joint in robot.joints:
         if not joint.has_axis or joint.axis is None:
@@ -80,8 +81,7 @@ def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]
 def write_unit_axis(problem: Problem, context: FixContext) -> Proposal | None:
     """Write the same direction at unit length.
 
-    The fix is unsafe because PyBullet uses the written length: at length 2, a prismatic joint moves
-    by twice its position.
+    The fix is unsafe because it changes the accelerations in PyBullet.
     """
     joint = context.get_joint(problem)
     if joint.axis is None:
