@@ -79,8 +79,14 @@ _BEYOND = 0.1
 """Part of its length by which geometry may be longer than visuals. Chosen, no source."""
 
 
+CLEARLY = 3.0
+"""From so many times the length of the visual on, a collision is reported by default. Chosen, no
+source.
+"""
+
+
 SPANNED = 4.0
-"""Geometry that spans the visuals of moved links is at most so many times as long as the visual of
+"""Geometry that spans the visuals of neighbors is at most so many times as long as the visual of
 its own link. Chosen, no source.
 """
 
@@ -91,8 +97,13 @@ def is_inside(box: Bounds, around: Bounds, axis: int) -> bool:
     return box.low[axis] >= around.low[axis] - slack and box.high[axis] <= around.high[axis] + slack
 
 
-def join_moved_visuals(robot: Robot, reach: LinkExtents, link: Link, box: Bounds) -> Bounds:
-    """Join a bounding box with those of the visuals of the links that the joints of a link move."""
+def join_neighbor_visuals(robot: Robot, reach: LinkExtents, link: Link, box: Bounds) -> Bounds:
+    """Join a bounding box with those of the visuals of the links that joints connect to a link."""
+    above = robot.tree.get_parent_joint(link.name)
+    parent = None if above is None else robot.link.get(above.parent)
+    if above is not None and parent is not None and parent.visuals:
+        other = reach.get_body_box(link, "visuals", [(parent, make_pose(above.origin).invert())])
+        box = box if other is None else box.join(other)
     for joint in robot.tree.get_child_joints(link.name):
         child = robot.link.get(joint.child)
         if child is not None and child.visuals and not joint.is_fixed:

@@ -30,6 +30,7 @@ from ..shape_changes import copy_origin, set_in_origin
 from ..words import join_some
 from .displaced import find_displaced
 from .larger_shapes import (
+    CLEARLY,
     SPANNED,
     find_longer_axis,
     is_ball_around,
@@ -38,7 +39,7 @@ from .larger_shapes import (
     is_doubled,
     is_inside,
     is_swept,
-    join_moved_visuals,
+    join_neighbor_visuals,
 )
 from .misalignment import Misalignment, compare_places, join_attached_boxes, measure_boxes
 from .z_up_visuals import find_z_up_visuals
@@ -212,6 +213,7 @@ def collision_mesh_too_dense(
         "gz, gazebo-classic, mujoco, pybullet": "use the collision geometry as written",
     },
     formats=ANY_FORMAT,
+    pedantic="less than 3 times as long, unless a radius is a diameter",
 )
 def collision_much_larger_than_visual(
     robot: Robot, description: Description, *, ratio: float = 2.0, least: float = 0.1
@@ -224,8 +226,8 @@ def collision_much_larger_than_visual(
     this one count too. Ignored are the disc that the blades of a rotor sweep, a sphere with the
     radius of a wheel, which makes contact with the ground in one point on purpose, and three or
     more primitives, composed on purpose, such as a capsule for coarse checks. So are a sphere
-    around a flat body, such as a drone, and geometry that spans the visuals of the links that its
-    joints move, as a capsule for a whole thigh.
+    around a flat body, such as a drone, and geometry that spans the visuals of the links that
+    joints connect to it, as a capsule for a whole thigh or the housing of a joint.
     """
     reach = get_extents(robot)
     for link in robot.links:
@@ -249,18 +251,17 @@ def collision_much_larger_than_visual(
             continue
         if is_composed(link) or is_ball_around(robot, link, around):
             continue
-        moved = join_moved_visuals(robot, reach, link, around)
+        moved = join_neighbor_visuals(robot, reach, link, around)
         if a <= SPANNED * b and is_inside(collision_box, moved, axis):
             continue
+        doubled = is_doubled(link, collision_box, visual_box)
         yield Problem(
             link,
             f"collision of link '{link.name}' spans {a:.3g} m along {'xyz'[axis]}, but its visual "
-            f"only {b:.3g} m"
-            + (
-                "; is the radius a diameter?" if is_doubled(link, collision_box, visual_box) else ""
-            ),
+            f"only {b:.3g} m{'; is the radius a diameter?' if doubled else ''}",
             at=link.collisions[0].geometry or link.collisions[0],
             data={"collision": a, "visual": b, "axis": "xyz"[axis]},
+            pedantic=a < CLEARLY * b and not doubled,
         )
 
 

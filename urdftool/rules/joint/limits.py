@@ -248,15 +248,17 @@ def write_missing_bound(problem: Problem, context: FixContext) -> Proposal | Non
         "newton": "limits the joint to them",
     },
     group="robot",
-    pedantic="bounds that are both 0, and robots called continuous, unless Newton is a target",
+    pedantic="bounds that are both 0, joints that mimic others, and robots called continuous, "
+    "unless Newton is a target",
 )
 def continuous_with_bounds(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A continuous joint has a lower or upper limit.
 
     A continuous joint turns without limits, and most readers ignore the bounds. MuJoCo 3.3 enforces
     them unless both are 0, so simulators load two different robots. A joint with bounds is
-    ``revolute``. Bounds that are both 0 are fields that an exporter left empty. In a file or robot
-    whose name has the word continuous, the type is meant.
+    ``revolute``. Bounds that are both 0 are fields that an exporter left empty, and a joint that
+    mimics another moves as far as that one. In a file or robot whose name has the word continuous,
+    the type is meant.
     """
     path = "" if robot.source is None else os.path.basename(robot.source.path)
     is_meant = "continuous" in f"{path} {robot.name}".lower()
@@ -277,7 +279,8 @@ def continuous_with_bounds(robot: Robot, targets: frozenset[str]) -> Iterator[Pr
             joint,
             f"joint '{joint.name}' is continuous, so most readers ignore its bounds; {remedy}",
             at=limit.locate_attribute(name),
-            pedantic="newton" not in targets and (is_meant or not (limit.lower or limit.upper)),
+            pedantic="newton" not in targets
+            and (is_meant or joint.mimic is not None or not (limit.lower or limit.upper)),
             alike=remedy,
         )
 

@@ -14,7 +14,7 @@ from ...workspace import Workspace, memoize_by_workspace
 from ..cross_file_references import check_alone
 from ..file_rewrites import TURNED, WITHOUT_COLLAPSED, count_collapsed
 from ..fix import FixContext, Proposal, unsafe
-from ..rule import ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
+from ..rule import INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from .changes import find_existing_uses, rewrite_in_place
 from .mesh_uses import MeshUse, get_mesh_uses, is_concave
 
@@ -136,7 +136,7 @@ def not_watertight(
 
 @rule(
     WARNING,
-    raised={"mujoco": ERROR},
+    default=False,
     effects={
         "mujoco": "3.3 and 4.0 load it",
         "rviz": "lights it by the normals of the file",

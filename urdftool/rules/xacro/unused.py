@@ -47,12 +47,13 @@ def _join_texts(description: Description) -> str:
     effects={
         "xacro": "accepts the argument, without any effect",
     },
+    pedantic="files with the ending .urdf, in which xacro left it",
 )
 def unused_arg(description: Description) -> Iterator[Problem]:
     """An argument is declared but never used.
 
     ``name:=value`` on the command line has no effect, without a message. The ``$(arg NAME)`` that
-    should use it is misspelled, or was removed.
+    should use it is misspelled, or was removed. In a ``.urdf``, it is left over.
     """
     if description.expansion is None:
         return
@@ -73,6 +74,7 @@ def unused_arg(description: Description) -> Iterator[Problem]:
             element,
             f"argument '{name}' is never used; write $(arg {name}), or remove it",
             at=element.locate_attribute("name"),
+            pedantic=entry.path.endswith(".urdf"),
         )
 
 

@@ -88,6 +88,7 @@ def write_version(problem: Problem, context: FixContext) -> Proposal | None:
 @rule(
     ERROR,
     effects=_FEATURE_EFFECTS,
+    group="robot",
 )
 def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
     """The robot has a feature of a later URDF version.
@@ -109,6 +110,8 @@ def _report_newer_features(robot: Robot, version: float) -> Iterator[Problem]:
                 f"{describe_owner(element)} has a <capsule>, which is not in URDF 1.0; "
                 "for ROS and Gazebo, write a <cylinder> and two <sphere>s",
                 severity=INFO if is_for_another_reader(robot.element) else None,
+                group="{count} shapes are a <capsule>, which is not in URDF 1.0; for ROS and Gazebo, "
+                "write a <cylinder> and two <sphere>s each",
                 effects=select_holding(_FEATURE_EFFECTS, _get_condition(element)),
             )
         for element in known["origin"]:

@@ -286,7 +286,7 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
 
 def _is_ignorable(element: Element, name: str) -> bool:
     """Tell whether readers lose nothing if they ignore an attribute."""
-    if name in _DOCUMENTATION:
+    if name in _DOCUMENTATION or (element.tag, name) == ("robot", "path"):  # as foam writes it
         return True
     if name in _UNITS:
         return False
