@@ -110,8 +110,8 @@ def _report_newer_features(robot: Robot, version: float) -> Iterator[Problem]:
                 f"{describe_owner(element)} has a <capsule>, which is not in URDF 1.0; "
                 "for ROS and Gazebo, write a <cylinder> and two <sphere>s",
                 severity=INFO if is_for_another_reader(robot.element) else None,
-                group="{count} shapes are a <capsule>, which is not in URDF 1.0; for ROS and Gazebo, "
-                "write a <cylinder> and two <sphere>s each",
+                group="{count} shapes are a <capsule>, which is not in URDF 1.0; for ROS and "
+                "Gazebo, write a <cylinder> and two <sphere>s each",
                 effects=select_holding(_FEATURE_EFFECTS, _get_condition(element)),
             )
         for element in known["origin"]:
