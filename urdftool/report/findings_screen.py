@@ -61,17 +61,19 @@ def format_screen(
         blocks = [[line] for line in format_concise(shown, colors=colors, cut=cut)]
     left: dict[str, list[Finding]] = {}
     lengths = [len(block) for block in blocks]
+    heads = [_count_headline(*pair) for pair in zip(shown, blocks, strict=True)]
     if not whole:
         families: dict[str, list[int]] = {}
         for number, finding in enumerate(shown):
             families.setdefault(FAMILY_OF.get(finding.code, "lint"), []).append(number)
         for family, numbers in families.items():
             numbers.sort(key=lambda number: (-shown[number].severity, number))
-            omitted = _fit(numbers, blocks)
+            omitted = _fit(numbers, blocks, heads)
             if omitted:
                 left[family] = [shown[number] for number in omitted]
     yield from _join(blocks) if style == "full" else chain.from_iterable(blocks)
-    short = sum(len(b) == 1 < length for b, length in zip(blocks, lengths, strict=True))
+    sizes = zip(blocks, heads, lengths, strict=True)
+    short = sum(len(block) == head < length for block, head, length in sizes)
     if short:
         what = "1 finding is" if short == 1 else f"{short} findings are"
         yield f"{what} shown in one line; --all shows all details"
@@ -88,21 +90,28 @@ def format_screen(
         yield ""
 
 
-def _fit(numbers: Sequence[int], blocks: list[list[str]]) -> Sequence[int]:
+def _count_headline(finding: Finding, block: Sequence[str]) -> int:
+    """Count the lines of a block up to the name of the rule, which a long message wraps to."""
+    ends = (number for number, line in enumerate(block, 1) if f"[{finding.code}]" in line)
+    return next(ends, 1)
+
+
+def _fit(numbers: Sequence[int], blocks: list[list[str]], heads: Sequence[int]) -> Sequence[int]:
     """Shorten the blocks of a family until they fit; return the omitted ones.
 
     Args:
         numbers: Indices of the family's blocks, the most severe first.
-        blocks: All blocks, modified in place; the first line of each is its headline.
+        blocks: All blocks, modified in place.
+        heads: Number of lines of the headline of each block, with the name of its rule.
     """
     if sum(len(blocks[number]) for number in numbers) <= SCREEN:
         return ()
     room = SCREEN if len(numbers) <= SCREEN else SCREEN - 1
     lines = SCREEN - len(numbers)
     for number in numbers[:room]:
-        more = len(blocks[number]) - 1
+        more = len(blocks[number]) - heads[number]
         if more > lines:
-            blocks[number] = blocks[number][:1]
+            blocks[number] = blocks[number][: heads[number]]
         else:
             lines -= more
     for number in numbers[room:]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ..source.document import Element
 
-_BRACED = re.compile(r"\{\w+\}")
+_BRACED = re.compile(r"\{-?\w+\}")
 
 
 def is_unexpanded(text: str) -> bool:

@@ -247,7 +247,7 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
                 name = child.text.strip()
                 if name in JOINT_INTERFACES or name in _KNOWN or is_unexpanded(name):
                     continue
-                if "/" in name and not name.startswith("hardware_interface/"):
+                if "/" in name and not (_is_path(name) or name.startswith("hardware_interface/")):
                     continue  # interface of another package
                 near = suggest_name(name, _KNOWN, 0.6)
                 yield Problem(
@@ -260,6 +260,11 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
 
 
 unknown_hardware_interface.fix(UNSAFE)(write_suggestion)
+
+
+def _is_path(name: str) -> bool:
+    """Tell whether a name is a path, such as one that an argument was expanded to."""
+    return "\\" in name or name.startswith(("/", "."))
 
 
 @rule(

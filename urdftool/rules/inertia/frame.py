@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from ...mechanics.mass_bounds import spread_ratio
 from ...mechanics.tensor import SymmetricTensor, rotate_tensor, shift_to_com
@@ -164,3 +164,28 @@ def _compute_norm(six: SymmetricTensor) -> float:
     """Compute the Frobenius norm of a symmetric matrix."""
     xx, xy, xz, yy, yz, zz = six
     return math.sqrt(xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz))
+
+
+_EXCHANGES = {
+    "x and y": (3, 1, 4, 0, 2, 5),
+    "x and z": (5, 4, 2, 3, 1, 0),
+    "y and z": (0, 2, 1, 5, 4, 3),
+}
+"""Where each number of a tensor is after two axes are exchanged."""
+
+
+def find_exchange(tensor: SymmetricTensor, judge: Callable[..., object]) -> str:
+    """Find the two axes of a link whose exchange lets a tensor fit its geometry.
+
+    That happens where the rotation of an inertial frame was lost, as of a cylinder along x that is
+    written about its own z.
+
+    Returns:
+        The axes, such as ``x and z``; empty if no exchange fits, or several do.
+    """
+    fitting = [
+        axes
+        for axes, (a, b, c, d, e, f) in _EXCHANGES.items()
+        if judge(tensor=(tensor[a], tensor[b], tensor[c], tensor[d], tensor[e], tensor[f])) is None
+    ]
+    return fitting[0] if len(fitting) == 1 else ""

@@ -26,7 +26,7 @@ from .corrections import (
     write_tensor,
 )
 from .density import find_outliers
-from .frame import compute_tensor_about_com, has_mesh
+from .frame import compute_tensor_about_com, find_exchange, has_mesh
 from .known_size import measure_known_size
 from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
 from .solids import compute_solid_moments, describe_solid, is_dummy
@@ -218,7 +218,8 @@ def inertia_exceeds_geometry(
     Mass has the largest inertia if it is in two lumps at the ends of the geometry. Usual causes of
     a larger one are g·mm² or kg·mm² in place of kg·m², a mass that is ten times too small, or the
     moment of one axis written for all three. The message gives the factor by which the geometry
-    would have to be longer, for any center of mass.
+    would have to be longer, for any center of mass, and says if the tensor fits with two axes
+    exchanged.
 
     ``allowed`` and ``certain`` are ratios of the variance of the mass along an axis to the largest
     possible one, about the center of mass as written. For a mesh the bounding box counts. Up to
@@ -285,19 +286,27 @@ def _find_large_inertias(
         found = judge(box, com=pose.translation, shapes=shapes)
         if found is not None:
             fits = judge(box, com=box.center) is None
+            at_com = partial(judge, box, com=pose.translation)
+            exchanged = "" if fits else find_exchange(tensor, at_com)
+            so = f"; it fits with the axes {exchanged} exchanged" if exchanged else ""
             is_own = _has_own_size(robot, link, found.certain)
             remedy = describe_remedy(link, inertial, six) if is_own else ""
             kind = get_remedy_kind(link, inertial, six) if is_own else ""
             yield Problem(
                 link,
-                f"inertia of link '{link.name}' {found.sentence}{remedy}",
+                f"inertia of link '{link.name}' {found.sentence}{so or remedy}",
                 at=inertial.inertia,
-                severity=None if found.certain else INFO,
+                severity=None if found.certain or exchanged else INFO,
                 caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
                 effects=_select_readers(six),
-                alike=(found.axis, min(len(attached), 3), kind),
-                data={"certain": found.certain, "times": found.amount, "is_full": _is_full(tensor)},
-                pedantic=not found.certain and SHORTEST <= found.amount < 2,
+                alike=(found.axis, min(len(attached), 3), so or kind),
+                data={
+                    "certain": found.certain,
+                    "times": found.amount,
+                    "is_full": _is_full(tensor),
+                    "exchanged": exchanged,
+                },
+                pedantic=not found.certain and not exchanged and SHORTEST <= found.amount < 2,
             )
 
 
