@@ -395,6 +395,26 @@ def test_a_thin_part_matters_to_mujoco_alone(write, least, targets, severity):
 
 
 @pytest.mark.parametrize(
+    ("product", "does"), [("0", "accept it"), ("0.01", "reject the model if rounding makes")]
+)
+def test_a_tilted_rod_may_be_rejected_by_gazebo(write, product, does):
+    rod = INERTIAL.format(1, 0.01, 0.01, 0.02 if float(product) else 0)
+    rod = rod.replace('ixy="0"', f'ixy="{product}"')
+    path = write(
+        "r.urdf",
+        robot(
+            f'<link name="a">{INERTIAL.format(1, 1, 1, 1)}</link>'
+            f'<link name="b">{rod}</link>'
+            '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>'
+        ),
+    )
+    (found,) = check(path, select=["singular-inertia"], targets=["gz"])
+    gazebo = [says for readers, says in found.effects.items() if readers.startswith("gz")]
+    assert len(gazebo) == 1
+    assert gazebo[0].startswith(does)
+
+
+@pytest.mark.parametrize(
     ("moment", "severity", "rejects"),
     [("0", "error", True), ("9e-15", "error", True), ("2e-14", "warning", False)],
 )

@@ -301,6 +301,9 @@ def report_every_zero_inertia(robot: Robot) -> Iterator[Problem]:
 
 _SINGULAR = {
     "gz, gazebo-classic, pinocchio, drake": "accept it",
+    "gz, gazebo-classic (tilted)": "reject the model if rounding makes the zero negative "
+    "(sdformat 12.3: Error 18)",
+    "pinocchio, drake (tilted)": "accept it",
     "pybullet": "uses its own inertia instead; with URDF_USE_INERTIA_FROM_FILE, keeps the zero",
     "mujoco": "rejects the file: inertia must have positive eigenvalues",
 }
@@ -333,10 +336,18 @@ def singular_inertia(
             _describe_singular(link, six),
             at=inertial.inertia,
             severity=None if rejected else WARNING,
-            effects=[key for key in _SINGULAR if key != "mujoco" or rejected],
+            effects=_list_singular_effects(six, rejected),
             alike=get_solid_kind(link),
             data={"moments": list(compute_principal_moments(six))},
         )
+
+
+def _list_singular_effects(six: SymmetricTensor, rejected: bool) -> list[str]:
+    """List the readers that a rod concerns; it is tilted if it has products of inertia."""
+    keys = ["pybullet", "mujoco"] if rejected else ["pybullet"]
+    if six[1] or six[2] or six[4]:
+        return ["gz, gazebo-classic (tilted)", "pinocchio, drake (tilted)", *keys]
+    return ["gz, gazebo-classic, pinocchio, drake", *keys]
 
 
 @singular_inertia.full
