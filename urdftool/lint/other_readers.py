@@ -52,8 +52,11 @@ _OF_DRIVES = frozenset(
 )
 """Rules about drives and their limits, which no reader without dynamics takes."""
 
-_OF_SHAPES = ("collision", "visual", "mesh", "package")
-"""Families of rules about shapes."""
+_OF_SHAPES = {
+    True: ("collision",),
+    False: ("collision", "visual", "mesh", "package"),
+}
+"""Families of rules that concern no reader of kinematics, with shapes and without."""
 
 
 def is_for_other_readers(rule: Rule, finding: Finding, used: Use | None) -> bool:
@@ -68,8 +71,6 @@ def is_for_other_readers(rule: Rule, finding: Finding, used: Use | None) -> bool
         return not _is_affected(rule, finding, used)
     if not used.moves and _is_of_dynamics(rule):
         return not any("reject" in text for text in _select_effects(finding, used).values())
-    if used.keeps_inertia and rule.family == "inertia" and "pybullet" in used.readers:
-        return False
     if rule.name == "mesh-not-found" and not _is_affected(rule, finding, used):
         return not any(key.startswith("pybullet") for key in finding.effects)  # found from above
     if rule.family == "name" or not _has_readers(finding) or _is_affected(rule, finding, used):
@@ -77,9 +78,9 @@ def is_for_other_readers(rule: Rule, finding: Finding, used: Use | None) -> bool
     if CHAIN in used.readers or SCENE in used.readers:
         if finding.severity is Severity.INFO:
             return True
-        takes_shapes = SCENE in used.readers or used.readers - {CHAIN}
-        return _is_of_dynamics(rule) or (rule.family in _OF_SHAPES and not takes_shapes)
-    return True
+        return _is_of_dynamics(rule) or rule.family in _OF_SHAPES[SCENE in used.readers]
+    takes_as_written = used.keeps_inertia and rule.family == "inertia" and rule.of_motion
+    return not (takes_as_written and "pybullet" in used.readers)
 
 
 def _is_of_dynamics(rule: Rule) -> bool:

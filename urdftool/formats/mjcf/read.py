@@ -153,7 +153,7 @@ def _find_missing(error: str) -> dict[str, str]:
 
 _MISSING = re.compile(r"^file '(.+)' does not exist$")
 _LOST_NAME = re.compile(r"XML Error: unknown default (?:class|childclass)|Error: unknown element '")
-"""What MuJoCo says of a name that a model into which it is merged may define."""
+"""Messages of MuJoCo about a name that a model into which it is merged may define."""
 
 _PLACEHOLDER = re.compile("__[A-Z][A-Z0-9_]*__")
 """A word in a path that a program replaces."""
