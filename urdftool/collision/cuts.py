@@ -59,7 +59,7 @@ class Decomposition:
         if not len(points) or self.measures.buried < self.measures.hausdorff:
             return False
         deepest = points[reach > _HELPS * reach.max()]
-        return float(self.estimate_burial(deepest).max()) < min(goal, _SEEN * reach.max())
+        return float(self.estimate_burial(deepest).max()) < min(goal, _SEEN * float(reach.max()))
 
 
 class PlaneCutter:
