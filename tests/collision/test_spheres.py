@@ -11,7 +11,7 @@ import urdftool
 from tests.collision.independent import sampled
 from tests.collision.shapes import finer, l_profile, noisy
 from urdftool.collision.choose import choose
-from urdftool.collision.settings import Settings
+from urdftool.collision.settings import COVERING, Settings
 from urdftool.collision.surface import prepare
 
 
@@ -72,6 +72,19 @@ def test_a_number_of_spheres_covers_or_shares_the_error(count):
     assert 0 < outside <= excess / 2 + 0.002 * size
     assert shared.measures.collision_to_visual == pytest.approx(excess / 2, abs=0.004 * size)
     assert shared.notes[-1].data["outside"] == pytest.approx(1000 * outside, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("options", "count"),
+    [
+        ({}, None),
+        ({"cover": True}, COVERING),
+        ({"cover": True, "count": 3}, 3),
+        ({"cover": True, "max_hulls": 4}, None),
+    ],
+)
+def test_a_cover_without_a_number_has_that_of_planners(options, count):
+    assert Settings(method="spheres", **options).spheres == count
 
 
 def test_one_sphere_around_a_cube():

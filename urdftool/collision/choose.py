@@ -329,8 +329,8 @@ def _try_spheres(
     target: ReferenceSurface, settings: Settings, notes: list[Diagnostic]
 ) -> Iterator[Choice]:
     """Yield a number of spheres, or few that cover all and protrude by at most the error."""
-    if settings.count is not None:
-        pieces = fit_spheres(target, settings.count, cover=settings.cover)
+    if settings.spheres is not None:
+        pieces = fit_spheres(target, settings.spheres, cover=settings.cover)
     else:
         pieces = cover_with_spheres(target, settings.max_error, settings.max_hulls)
     found = measure(target, pieces)

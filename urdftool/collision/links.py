@@ -163,7 +163,7 @@ def _divide_count(robot: Robot, uses: Sequence[Use]) -> Iterator[Use]:
     each of its spheres.
     """
     meshes = [use for use in uses if use.task is not None]
-    count = next((use.task.settings.count for use in meshes if use.task is not None), None)
+    count = next((use.task.settings.spheres for use in meshes if use.task is not None), None)
     if count is None or len(meshes) < 2:
         yield from uses
         return

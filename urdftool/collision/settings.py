@@ -19,6 +19,9 @@ PER = ("link", "mesh")
 
 MESH_FORMATS = ("stl", "obj")
 
+COVERING = 12
+"""Number of spheres that cover a link, without another number: the most in cuRobo's own files."""
+
 METHODS = ("auto", "primitive", "hull", "cuts", "coacd", "spheres", "simplify")
 
 
@@ -67,8 +70,8 @@ class Settings:
         threshold: CoACD's concavity threshold for ``coacd``: a distance relative to half the
             longest side.
         time_limit: Processor time limit [s] of all CoACD runs on a mesh.
-        count: Number of spheres of ``spheres``, with the least error; None for as many as
-            ``max_error`` needs.
+        count: Number of spheres of ``spheres``, with the least error; None for ``COVERING`` with
+            ``cover``, else for as many as ``max_error`` needs.
         cover: Whether ``count`` spheres leave no point of the surface outside.
         quality: One of ``QUALITIES``: how finely to measure, and how long to search. It does not
             set ``max_error``; :meth:`from_quality` does.
@@ -104,6 +107,13 @@ class Settings:
     def effort(self) -> Effort:
         """Return the preset of the quality."""
         return QUALITIES[self.quality]
+
+    @property
+    def spheres(self) -> int | None:
+        """Return the number of spheres; None for as many as ``max_error`` needs."""
+        if self.count is None and self.cover and self.max_hulls is None:
+            return COVERING
+        return self.count
 
     @property
     def most(self) -> int:

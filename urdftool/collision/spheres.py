@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from ..geometry.mesh import Points
 from .distance import spread
@@ -26,8 +25,6 @@ _SAMPLES = 5000  # points that each candidate is tested with
 _STEPS = 6  # of the bisection for the excess
 _LARGEST = 0.5  # excess, relative to the size, that is always enough for some cover
 _CHECKED = 60_000  # other points, by which the gaps of the dense samples are measured
-
-Floats = npt.NDArray[np.float32]
 
 
 def cover_with_spheres(
@@ -92,18 +89,18 @@ class _Cover:
 
     def _extend(self, chosen: list[int], points: Points, radii: Points, most: int) -> bool:
         """Choose more spheres until they cover the points; return whether they are few enough."""
-        covers = _compute_distances(self.centers, points) <= (radii - self.gap)[:, None]
-        weights = covers.astype(np.float32)
-        open_points = np.ones(len(points), np.float32)
-        while open_points.any():
-            if len(chosen) >= most:
-                return False
-            counts = weights @ open_points
+        reach = np.maximum(radii - self.gap, 0)
+        covers = _compute_squares(points, self.centers) <= reach**2
+        counts = covers.sum(axis=0)
+        is_open = np.ones(len(points), dtype=bool)
+        while is_open.any():
             best = int(np.argmax(counts))
-            if not counts[best]:
+            if len(chosen) >= most or not counts[best]:
                 return False
             chosen.append(best)
-            open_points[covers[best]] = 0
+            newly = is_open & covers[:, best]
+            counts -= covers[newly].sum(axis=0)
+            is_open &= ~newly
         return True
 
     def _find_uncovered(self, chosen: Sequence[int], radii: Points) -> Points:
@@ -114,9 +111,14 @@ class _Cover:
         return left
 
 
-def _compute_distances(centers: Points, points: Points) -> Floats:
-    squares = (centers**2).sum(axis=1)[:, None] + (points**2).sum(axis=1) - 2 * centers @ points.T
-    return np.asarray(np.sqrt(np.maximum(squares, 0)), dtype=np.float32)
+def _compute_squares(points: Points, centers: Points) -> Points:
+    """Compute the squares of distances [m²], shape (points, centers)."""
+    middle = points.mean(axis=0)
+    points, centers = points - middle, centers - middle
+    squares = points @ (-2 * centers.T)
+    squares += (centers**2).sum(axis=1)
+    squares += (points**2).sum(axis=1)[:, None]
+    return np.asarray(squares)
 
 
 def measure_gap(target: ReferenceSurface) -> float:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..collision.settings import COVERING
 from .cache_options import CACHE_OPTIONS, choose_cache_folder
 from .options import FiniteRange, make_decorator, make_format_option
 
@@ -111,7 +112,8 @@ _OPTIONS = (
         type=click.IntRange(1),
         metavar="N",
         help="Number of spheres per link of --method spheres, with the least error: half of it "
-        "protrudes, half is outside of the spheres.  [default: as --max-error requires]",
+        f"protrudes, half is outside of the spheres.  [default: {COVERING} with --cover, else as "
+        "--max-error requires]",
     ),
     click.option(
         "--cover",
