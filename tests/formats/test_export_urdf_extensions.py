@@ -236,3 +236,19 @@ def test_elements_of_other_programs_are_copied_or_named(urdftool, write, tmp_pat
     result = urdftool("export", target, path, "-o", str(tmp_path / "out"), "--force")
     lines = [line for line in result.err.splitlines() if "[lossy-other-element]" in line]
     assert [line.partition("<")[2].partition(">")[0] for line in lines] == tags
+
+
+def test_names_of_collisions_let_gazebo_apply_their_friction(tmp_path, urdftool):
+    """Libsdformat applies a block to collisions whose name begins with that of the link."""
+    path = tmp_path / "m.sdf"
+    path.write_text(
+        '<sdf version="1.9"><model name="m"><link name="a"><inertial><mass>1</mass></inertial>'
+        '<collision name="hull"><geometry><box><size>1 1 1</size></box></geometry><surface>'
+        "<friction><ode><mu>0.3</mu></ode></friction></surface></collision></link></model></sdf>",
+        "utf-8",
+    )
+    out = tmp_path / "m.urdf"
+    result = urdftool("export", "urdf", path, "-o", out, "--verify", "--strict", "-v")
+    assert result.code == 0, result.err
+    assert "collision 'hull' is named 'a_hull'" in result.err
+    assert '<collision name="a_hull">' in out.read_text("utf-8")

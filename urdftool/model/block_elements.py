@@ -12,6 +12,9 @@ from ..source.location import Place
 from .elements import GazeboExtension, Joint, Link, Robot
 from .settings import JOINT_TAGS, LUMPING_TAGS
 
+_LUMPED = "_fixed_joint_lump__"
+"""Mark in the names that Gazebo gives to the shapes of lumped links."""
+
 
 def list_part_elements(robot: Robot, part: Link | Joint) -> Iterator[Element]:
     """Yield the elements in the blocks of a link or joint, in the order of the file.
@@ -82,3 +85,17 @@ def find_owner(robot: Robot, element: Element) -> tuple[str, str]:
             return "link" if reference in robot.link else "joint", reference
         above = above.parent
     return "robot", robot.name
+
+
+def takes_settings(shape: str, link: str) -> bool:
+    """Tell whether Gazebo applies the settings of a link to a shape of that name in a URDF.
+
+    As ``parser_urdf.cc`` of sdformat 12.3 (run): a name must begin with that of the link, and not
+    be one of a lumped shape; shapes without a name are named by the parser.
+    """
+    return not shape or (shape.startswith(link) and _LUMPED not in shape)
+
+
+def make_taking_name(shape: str, link: str) -> str:
+    """Return a name of a shape with which the settings of its link apply."""
+    return f"{link}_{shape.replace(_LUMPED, '_')}"

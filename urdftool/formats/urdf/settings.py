@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from lxml import etree
 
 from ...diagnostic import Severity
+from ...model.block_elements import make_taking_name, takes_settings
 from ...model.elements import Joint, Link, Robot
 from ...model.numbers import format_content
 from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Setting, Settings
@@ -22,7 +23,9 @@ def add_settings(t: Translation) -> None:
     _add_block(t, t.robot, None, t.robot.settings, OF_ROBOT)
     for link in t.robot.links:
         _add_block(t, link, t.names.links[link.name], link.settings, OF_LINKS)
-        _add_block(t, link, t.names.links[link.name], _find_common(t, link), SURFACE)
+        common = _find_common(t, link)
+        if _add_block(t, link, t.names.links[link.name], common, SURFACE):
+            _rename_collisions(t, link)
     for joint in t.robot.joints:
         settings = joint.settings
         if joint.spring is not None and joint.type not in _WITH_SPRING:
@@ -56,12 +59,15 @@ def _add_block(
     name: str | None,
     settings: Settings,
     rows: Iterable[Setting],
-) -> None:
-    """Add the block of a part; a value that SDF has without being written adds nothing."""
+) -> bool:
+    """Add the block of a part, and tell whether there is one.
+
+    A value that SDF has without being written adds nothing.
+    """
     chosen = {r.name: settings[r.name].content for r in rows if r.name in settings}
     chosen = {r.name: chosen[r.name] for r in rows if chosen.get(r.name, r.default) != r.default}
     if not chosen:
-        return
+        return False
     node = add(t.root, "gazebo", **({} if name is None else {"reference": name}))
     decay = {chosen.get("linear_decay"), chosen.get("angular_decay")}
     for row in rows:
@@ -90,6 +96,22 @@ def _add_block(
         name=part.name,
         severity=Severity.INFO,
     )
+    return True
+
+
+def _rename_collisions(t: Translation, link: Link) -> None:
+    """Begin the names of the collisions of a link with its own; Gazebo ignores its block else."""
+    new = t.names.links[link.name]
+    for node in t.root.iterfind("link"):
+        for shape in node.iterfind("collision") if node.get("name") == new else ():
+            name = shape.get("name", "")
+            if not takes_settings(name, new):
+                shape.set("name", make_taking_name(name, new))
+                text = f"collision '{name}' is named '{shape.get('name')}', so that Gazebo applies "
+                text += f"the <gazebo> block of link '{new}' to it"
+                t.written.report_loss(
+                    "name", text, link.place, kind="link", name=link.name, severity=Severity.INFO
+                )
 
 
 def _get_or_create(node: etree._Element, path: str) -> etree._Element:

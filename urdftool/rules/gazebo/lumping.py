@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...model.block_elements import make_taking_name, takes_settings
 from ...model.elements import GazeboExtension, Robot
 from ...model.settings import LUMPING_TAGS, SURFACE_TAGS, get_text, is_set, is_true
 from ...source.document import Element
@@ -276,16 +277,23 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
             ("visual", link.visuals, words & {"material", "visual"}),
         ):
             for shape in shapes:
-                if tags and shape.name and not shape.name.startswith(link.name):
+                if tags and not takes_settings(shape.name, link.name):
                     lost = " or ".join(sorted(tags))
+                    new = make_taking_name(shape.name, link.name)
+                    begins = shape.name.startswith(link.name)
+                    why = (
+                        "is one of a lumped link"
+                        if begins
+                        else f"does not begin with '{link.name}'"
+                    )
                     yield Problem(
                         link,
-                        f"name of {what} '{shape.name}' does not begin with '{link.name}', so "
-                        f"Gazebo applies no {lost} to it; write '{link.name}_{shape.name}'",
+                        f"name of {what} '{shape.name}' {why}, so "
+                        f"Gazebo applies no {lost} to it; write '{new}'",
                         at=shape.locate_attribute("name"),
                         severity=WARNING if what == "collision" else INFO,
                         alike=(what, *sorted(tags)),
-                        data={"write": f"{link.name}_{shape.name}", "elements": sorted(tags)},
+                        data={"write": new, "elements": sorted(tags)},
                     )
 
 
@@ -300,7 +308,7 @@ def prefix_name(problem: Problem, context: FixContext) -> Proposal | None:
     name = element.get(attribute) or ""
     if name in context.texts:
         return None
-    new = f"{link.name}_{name}"
+    new = make_taking_name(name, link.name)
     return unsafe(f"write name '{new}'", set_attribute(element, attribute, new))
 
 
