@@ -101,7 +101,9 @@ def test_infos_that_the_configuration_asks_for_are_on(tmp_path):
     assert _find(tmp_path, '<link name="a"><for_my_program/></link>', "unknown-element")
 
 
-@pytest.mark.parametrize(("code", "count"), [("import pybullet\n", 0), ("import pinocchio\n", 1)])
+@pytest.mark.parametrize(
+    ("code", "count"), [("import pybullet\n", 0), ("import pinocchio\npinocchio.rnea\n", 1)]
+)
 def test_an_inertia_of_mass_zero_has_no_effect_in_pybullet(tmp_path, code, count):
     (tmp_path / "setup.py").write_text("")
     (tmp_path / "env.py").write_text(code)

@@ -79,8 +79,8 @@ _BEYOND = 0.1
 """Part of its length by which geometry may be longer than visuals. Chosen, no source."""
 
 
-CLEARLY = 3.0
-"""From so many times the length of the visual on, a collision is reported by default. Chosen, no
+CLEARLY = 2.5
+"""From so many times the visual along any axis on, a collision is reported by default. Chosen, no
 source.
 """
 

@@ -213,7 +213,7 @@ def collision_mesh_too_dense(
         "gz, gazebo-classic, mujoco, pybullet": "use the collision geometry as written",
     },
     formats=ANY_FORMAT,
-    pedantic="less than 3 times as long, unless a radius is a diameter",
+    pedantic="less than 2.5 times as long, unless a radius is a diameter",
 )
 def collision_much_larger_than_visual(
     robot: Robot, description: Description, *, ratio: float = 2.0, least: float = 0.1
@@ -261,7 +261,7 @@ def collision_much_larger_than_visual(
             f"only {b:.3g} m{'; is the radius a diameter?' if doubled else ''}",
             at=link.collisions[0].geometry or link.collisions[0],
             data={"collision": a, "visual": b, "axis": "xyz"[axis]},
-            pedantic=a < CLEARLY * b and not doubled,
+            pedantic=not doubled and find_longer_axis(collision_box, around, CLEARLY, 0.0) is None,
         )
 
 
