@@ -277,7 +277,7 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
             ("visual", link.visuals, words & {"material", "visual"}),
         ):
             for shape in shapes:
-                if tags and not takes_settings(shape.name, link.name):
+                if tags and shape.name and not takes_settings(shape.name, link.name):
                     lost = " or ".join(sorted(tags))
                     new = make_taking_name(shape.name, link.name)
                     begins = shape.name.startswith(link.name)
