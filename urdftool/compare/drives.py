@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from itertools import zip_longest
 
-from ..model.drives import Drive, is_driven_alone, list_drives
+from ..model.drives import GAINS, Drive, is_driven_alone, list_drives
 from ..model.elements import Joint, Robot
 from .difference import Comparison, Difference
 from .joints import measure
@@ -16,7 +16,7 @@ _ROW = "actuators"
 _TOLERANCE = 1e-5
 """Largest difference of gains and forces, relative above 1; of the 32-bit numbers of USD."""
 
-_UNITS = {"gear": "", "stiffness": "N·m/rad or N/m", "damping": "N·m·s/rad or N·s/m"}
+_UNITS = {"gear": "", **GAINS}
 
 
 def compare_drives(pair: Pair, comparison: Comparison) -> None:

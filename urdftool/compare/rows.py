@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from ..errors import ConfigError
+from ..model.settings import RESISTANCE
 from ..suggestions import suggest_name
 
 
@@ -32,9 +33,13 @@ ROWS = (
     Row("frames", "origins of joints, poses of links [m, rad]", 1e-5),
     Row("axes", "directions and positions of joint axes [rad, m]", 1e-5),
     Row("limits", "position, effort and velocity, relative above 1", 1e-5),
-    Row("joint physics", "damping, friction, armature, springs, stops, relative above 1", 1e-6),
+    Row(
+        "joint physics",
+        f"{', '.join(row.name for row in RESISTANCE)}, springs, stops, relative above 1",
+        1e-6,
+    ),
     Row("surface", "friction and contact of equal collisions, relative above 1", 1e-6),
-    Row("link flags", "gravity, self-collision, damping of motion, wind", 1e-6),
+    Row("link flags", "gravity, self-collision, decay of motion, wind", 1e-6),
     Row("world", "gravity, wind and medium; solver of two MJCF", 1e-6),
     Row("mass", "mass, relative", 1e-4),
     Row("center of mass", "position in the link [m]", 1e-5),

@@ -93,6 +93,10 @@ def list_servo_joints(robot: Robot) -> list[str]:
     return [joint.name for joint in robot.joints if kinds.get(joint.name, "motor") != "motor"]
 
 
+GAINS = {"stiffness": "N·m/rad or N/m", "damping": "N·m·s/rad or N·s/m"}
+"""Units of the gains of a drive: names in ``Drive`` and of attributes of USD."""
+
+
 @dataclass(slots=True)
 class Drive(Part):
     """Drive of a joint.

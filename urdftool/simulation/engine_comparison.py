@@ -14,6 +14,7 @@ import numpy as np
 
 from ..diagnostic import Severity
 from ..model.elements import Robot
+from ..model.settings import RESISTANCE_OF_URDF
 from .fault import Fault
 from .recording import Array
 from .run import Run
@@ -266,7 +267,7 @@ def _list_model_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
             "engine one",
             tuple(many),
         )
-    soft = [b.name for b in bodies.bodies if b.surface.stiffness is not None]
+    soft = [b.name for b in bodies.bodies if "contact_stiffness" in b.surface]
     if soft and first.uses_contact_stiffness != second.uses_contact_stiffness:
         yield _Cause(
             f"contact softness: the file gives {_format_names('link', soft)} a stiffness, which "
@@ -312,12 +313,12 @@ def _list_joint_causes(one: Verdict, other: Verdict) -> Iterator[_Cause]:
             "different stiffness",
             tuple(stopped),
         )
-    losing = [joint.name for joint in joints if joint.damping or joint.friction]
+    losing = [joint.name for joint in joints if any(joint.resistance.values())]
     if losing:
         yield _Cause(
-            f"friction and damping of {_format_names('joint', losing)}, which the engines combine "
-            "with a "
-            "motor in different ways",
+            f"{' and '.join(sorted(RESISTANCE_OF_URDF, reverse=True))} of "
+            f"{_format_names('joint', losing)}, which the engines combine with a motor in "
+            "different ways",
             tuple(losing),
         )
 

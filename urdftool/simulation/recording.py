@@ -76,8 +76,7 @@ class Recording:
             samples: an engine may omit a contact in single samples.
         carried: Mean of the total force of these contacts [N]; nan without samples.
         read_back: Values that the engine loaded differently from the file.
-        capped: Simulated damping of joints whose specified damping is unstable at the time step
-            [N·m·s/rad, N·s/m].
+        capped: That of the engine's ``World``.
         still_since: Time since which nothing moved [s]; None if the robot moved to the end.
         ended: ``still``, ``time``, or ``lost`` (a value was not finite, or the robot far away).
         seconds: Processor time of the steps [s].

@@ -13,7 +13,7 @@ from ..model.actuation import find_actuated_joints
 from ..model.elements import ZERO, Joint, Link, Robot
 from ..model.kinematics import find_movable_joints, get_limits, link_poses
 from ..model.pose import IDENTITY, Pose, make_pose
-from ..model.settings import get_number
+from ..model.settings import RESISTANCE_OF_URDF, SURFACE, get_number
 from ..model.start import start_positions
 from .control import NONE
 from .recording import Array
@@ -22,34 +22,21 @@ from .shapes import Shape, make_shapes
 from .spawn import spawn_pose
 
 
-@dataclass(frozen=True)
-class Surface:
-    """Contact parameters of a body; None for values that the file does not set.
+def choose_surface(robot: Robot, links: Iterable[str]) -> dict[str, float]:
+    """Return the contact parameters that a rigid body of several links has, by their rows.
 
-    Attributes:
-        friction: Coulomb friction coefficient [–] in the first direction.
-        stiffness: Contact stiffness [N/m].
-        damping: Contact damping [N·s/m].
+    Engines have one set for a body: if its collisions differ, the smallest of each is used. A
+    stiffness of 0 is none.
     """
-
-    friction: float | None = None
-    stiffness: float | None = None
-    damping: float | None = None
-
-
-def choose_surface(robot: Robot, links: Iterable[str]) -> Surface:
-    """Return the contact parameters of a rigid body of several links.
-
-    Engines have one set for a body: if its collisions differ, the smallest of each is used.
-    """
-    surfaces = [shape.surface for name in links for shape in robot.link[name].collisions]
-
-    def least(name: str) -> float | None:
-        values = (get_number(surface, name) for surface in surfaces)
-        return min((v for v in values if v is not None and v >= 0), default=None)
-
-    stiffness = least("contact_stiffness")
-    return Surface(least("friction"), stiffness or None, least("contact_damping"))
+    found: dict[str, float] = {}
+    for settings in (shape.surface for name in links for shape in robot.link[name].collisions):
+        for row in SURFACE:
+            value = get_number(settings, row.name)
+            if value is not None and value >= 0:
+                found[row.name] = min(found.get(row.name, value), value)
+    if found.get("contact_stiffness") == 0:
+        del found["contact_stiffness"]
+    return found
 
 
 TENSOR_ROUNDING = 0.01
@@ -70,8 +57,7 @@ class RigidBodyJoint:
         lower: Lower limit [rad, m]; -inf without one.
         upper: Upper limit [rad, m]; inf without one.
         effort: Effort limit [N·m, N]; None without one, or if it is zero.
-        damping: Damping [N·m·s/rad, N·s/m].
-        friction: Dry friction [N·m, N].
+        resistance: What URDF says of its ``RESISTANCE``, by the names of the rows.
         leader: Name of the joint that it mimics; None without one.
         multiplier: Factor of the leader's position.
         offset: Offset added to the product [rad, m].
@@ -85,8 +71,7 @@ class RigidBodyJoint:
     lower: float = -math.inf
     upper: float = math.inf
     effort: float | None = None
-    damping: float = 0.0
-    friction: float = 0.0
+    resistance: Mapping[str, float] = field(default_factory=dict)
     leader: str | None = None
     multiplier: float = 1.0
     offset: float = 0.0
@@ -119,7 +104,7 @@ class RigidBody:
     joint: RigidBodyJoint | None
     parent: int
     origin: Pose
-    surface: Surface
+    surface: Mapping[str, float]
     weightless: SpatialInertia | None = None
 
     @property
@@ -322,8 +307,7 @@ def make_joint(joint: Joint, robot: Robot) -> RigidBodyJoint:
         lower,
         upper,
         joint.get_magnitude("effort") or None,
-        joint.get_resistance("damping"),
-        joint.get_resistance("friction"),
+        {name: joint.get_resistance(name) for name in RESISTANCE_OF_URDF},
         mimic.joint if mimic is not None and mimic.joint in find_movable_joints(robot) else None,
         mimic.multiplier if mimic is not None else 1.0,
         mimic.offset if mimic is not None else 0.0,

@@ -119,7 +119,7 @@ def test_servos_of_a_carried_chain_are_stable_at_longer_steps(seed, size, step):
         step * TIMESTEP,
         np.diag(
             [
-                2 * np.sqrt(gain.value * other) if gain.damping is None else gain.damping
+                2 * np.sqrt(gain.value * other) if gain.kd is None else gain.kd
                 for gain, other in zip(gains, free, strict=True)
             ]
         ),

@@ -10,11 +10,12 @@ from collections.abc import Hashable, Iterator, Sequence
 
 from ...compare.check import Check
 from ...model.elements import Robot
+from ...model.settings import RESISTANCE
 
 _Parts = Sequence[tuple[Hashable, str]]
 """Keys and names of parts."""
 
-DYNAMICS = ("armature", "damping", "friction")
+DYNAMICS = tuple(sorted(row.name for row in RESISTANCE))
 """Properties of a joint that options of the export set."""
 
 

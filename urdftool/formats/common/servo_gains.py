@@ -75,7 +75,7 @@ class Gain:
         force: Force limit [N·m or N] that is assumed with it; None if the joint has one, or if
             nothing is known to derive it from.
         sag: Error [rad or m] with which the servo holds the load at home.
-        damping: Damping [N·m·s/rad or N·s/m] of a position servo that is critical while the other
+        kd: Damping [N·m·s/rad or N·s/m] of a position servo that is critical while the other
             joints do not move, for a gain that would else diverge at a longer step; None for
             critical damping while they are free.
         is_weak: Whether the effort limit is below the load at home.
@@ -86,7 +86,7 @@ class Gain:
     is_bounded: bool = False
     force: float | None = None
     sag: float = 0.0
-    damping: float | None = None
+    kd: float | None = None
     is_weak: bool = False
     is_carried: bool = False
 
@@ -110,13 +110,13 @@ def choose_position_gain(
     value = _round(most) if is_bounded else desired
     force = None if effort else _round(max(value * FULL[kind], 2 * load.force))
     is_stiff = load.is_carried and value > (4 / LONGER) ** 2 * load.free / timestep**2
-    damping = _round(2 * math.sqrt(value * load.inertia)) if is_stiff else None
+    kd = _round(2 * math.sqrt(value * load.inertia)) if is_stiff else None
     if effort and load.force > effort and not load.is_carried:  # by the ground
-        return Gain(value, is_bounded, force, damping=damping, is_weak=True)
+        return Gain(value, is_bounded, force, kd=kd, is_weak=True)
     return Gain(value, is_bounded, force, load.force / value, damping, is_carried=load.is_carried)
 
 
-def compute_damping(gain: Gain, load: JointLoad, timestep: float = TIMESTEP) -> float:
+def compute_kd(gain: Gain, load: JointLoad, timestep: float = TIMESTEP) -> float:
     """Compute the damping of a position servo [N·m·s/rad or N·s/m].
 
     It is critical for the inertia that the joint moves while the other joints are free, for which
@@ -127,8 +127,8 @@ def compute_damping(gain: Gain, load: JointLoad, timestep: float = TIMESTEP) -> 
         load: What the joint moves, with its armature.
         timestep: Physics time step [s], for a joint that moves nothing with mass.
     """
-    if gain.damping is not None:
-        return gain.damping
+    if gain.kd is not None:
+        return gain.kd
     inertia = load.free or load.inertia or gain.value * timestep**2
     return 2 * math.sqrt(gain.value * inertia)
 

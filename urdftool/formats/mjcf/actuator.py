@@ -119,17 +119,17 @@ def _plan_actuator(
     if settings.force_range is not None:
         effort = max(map(abs, settings.force_range))
     if drive.kind == "position":
-        gain, damping = settings.kp, settings.kd
+        gain, kd = settings.kp, settings.kd
         if gain is None:
             chosen = assumed[joint.name] = choose_position_gain(kind, effort, load, timestep)
-            gain, damping = chosen.value, chosen.damping if damping is None else damping
+            gain, kd = chosen.value, chosen.kd if kd is None else kd
             if chosen.force is not None:
                 made = replace(made, force_range=(-chosen.force, chosen.force))
         limits = get_bounds(joint)
         bounds = limits if limits is not None and _is_range(*limits) else None
         bounds = settings.command_range or bounds
-        ratio = 1.0 if damping is None else None
-        bias = (0.0, -gain, -(damping or 0.0))
+        ratio = 1.0 if kd is None else None
+        bias = (0.0, -gain, -(kd or 0.0))
         return replace(made, gain=gain, bias=bias, damping_ratio=ratio, control_range=bounds)
     if drive.kind == "velocity":
         velocity = drop_unlimited(joint.get_magnitude("velocity")) or 0.0

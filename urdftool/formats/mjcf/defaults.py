@@ -101,7 +101,7 @@ Signature = tuple[tuple[str, str], ...]
 def add_joint_classes(
     robot: etree._Element, world: etree._Element, actuators: etree._Element | None, model: str
 ) -> None:
-    """Create a class for joints that share limits, damping and the gains of their actuator."""
+    """Create a class for joints that share limits, resistance and the gains of their actuator."""
     driven: dict[str, list[etree._Element]] = {}
     for actuator in actuators if actuators is not None else ():
         driven.setdefault(actuator.get("joint", ""), []).append(actuator)

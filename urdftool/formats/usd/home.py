@@ -22,7 +22,7 @@ from ..common.servo_gains import (
     Gain,
     choose_position_gain,
     choose_velocity_gain,
-    compute_damping,
+    compute_kd,
     drop_unlimited,
     report_gains,
 )
@@ -154,11 +154,10 @@ def _make_servo(
     if drive.kind == "velocity":
         velocity = drop_unlimited(joint.get_magnitude("velocity")) or 0.0
         gain = choose_velocity_gain(kind, effort, velocity, load, timestep)
-        stiffness, damping = 0.0, gain.value
+        kp, kd = 0.0, gain.value
     else:
         gain = choose_position_gain(kind, effort, load, timestep)
-        stiffness = gain.value
-        damping = compute_damping(gain, load, timestep)
+        kp, kd = gain.value, compute_kd(gain, load, timestep)
     assumed[joint.name] = gain
     return JointActuator(
         None,
@@ -166,6 +165,6 @@ def _make_servo(
         joint.name,
         drive.kind,
         gain=gain.value,
-        bias=(0.0, -stiffness, -damping),
+        bias=(0.0, -kp, -kd),
         force_range=None if gain.force is None else (-gain.force, gain.force),
     )

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ...model.elements import Joint, Robot
 from ...model.numbers import round_noise
+from ...model.settings import RESISTANCE
 from ...model.start import start_positions
 from ..common.directory import mark_usda, write_beside
 from ..common.srdf import read_srdf
@@ -173,18 +174,12 @@ class _Config:
             self.assumptions.append("stiffness and damping are those of the stage, which are zero")
 
     def _list_values(self, joint: Joint) -> tuple[float | None, ...]:
-        """Return effort, velocity, friction, damping and armature of a joint."""
+        """Return effort, velocity and resistance of a joint."""
         values = self._values[joint.name]
-        return (
-            values.effort,
-            values.velocity,
-            values.friction,
-            values.damping,
-            values.armature,
-        )
+        return values.effort, values.velocity, *(values.resistance[r.name] for r in RESISTANCE)
 
     def _format_group(self, label: str, joints: list[Joint]) -> Iterator[str]:
-        effort, velocity, friction, damping, armature = self._list_values(joints[0])
+        effort, velocity, viscous, dry, armature = self._list_values(joints[0])
         names = ", ".join(json.dumps(self._names.joint[joint.name]) for joint in joints)
         limits = _FIELDS[self._version]
         yield f"        {json.dumps(label)}: ImplicitActuatorCfg("
@@ -192,9 +187,9 @@ class _Config:
         for field, value in (
             (limits[0], effort),
             (limits[1], velocity),
-            ("friction", friction),
-            ("dynamic_friction", friction),
-            ("viscous_friction", damping),
+            ("friction", dry),
+            ("dynamic_friction", dry),
+            ("viscous_friction", viscous),
             ("armature", armature),
         ):
             if value:

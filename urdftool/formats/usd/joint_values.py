@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ...diagnostic import Severity
 from ...listing import quote_first
-from ...model.drives import list_servo_joints
+from ...model.drives import GAINS, list_servo_joints
 from ...model.elements import Joint
 from ...model.mechanism import JointActuator
 from ...model.settings import MAGNITUDES, RESISTANCE, RESISTANCE_OF_URDF
@@ -28,18 +28,14 @@ class JointValues:
     Attributes:
         effort: Largest force of the drive.
         velocity: Largest velocity.
-        friction: Dry friction.
-        damping: Viscous damping, which the largest force of the drive does not limit.
-        armature: Rotor inertia at the joint.
-        kp: Stiffness of the drive.
-        kd: Damping of the drive.
+        resistance: Values of ``RESISTANCE`` by name; the largest force of the drive limits none.
+        kp: Force of the drive for each unit of position.
+        kd: Force of the drive for each unit of velocity.
     """
 
     effort: float | None = None
     velocity: float | None = None
-    friction: float = 0.0
-    damping: float = 0.0
-    armature: float = 0.0
+    resistance: Mapping[str, float] = field(default_factory=dict)
     kp: float = 0.0
     kd: float = 0.0
 
@@ -83,10 +79,8 @@ def get_own_values(joint: Joint) -> JointValues:
     finite = {name: value for name, value in written.items() if value and math.isfinite(value)}
     if written["effort"] == 0:
         finite["effort"] = 0.0
-    return JointValues(
-        **finite,
-        **{row.name: joint.get_resistance(row.name) for row in RESISTANCE},
-    )
+    resistance = {row.name: joint.get_resistance(row.name) for row in RESISTANCE}
+    return JointValues(**finite, resistance=resistance)
 
 
 def _choose(
@@ -100,7 +94,7 @@ def _choose(
         effort=plain.effort if force is None else max(map(abs, force)),
         kp=kp if settings.kp is None else settings.kp,
         kd=kd if settings.kd is None else settings.kd,
-        **settings.list_resistance(),
+        resistance={**plain.resistance, **settings.list_resistance()},
     )
     _report_changes(joint, plain, values, written)
     if joint.limit is not None and (joint.limit.effort or 0) < 0:
@@ -134,23 +128,24 @@ def _bound(values: JointValues, servos: Sequence[JointActuator]) -> JointValues:
 
 
 def _compute_gains(servos: Sequence[JointActuator]) -> tuple[float, float]:
-    """Return stiffness and damping of the actuators of one joint [per rad or m]."""
-    stiffness = damping = 0.0
+    """Return kp and kd of the actuators of one joint [per rad or m]."""
+    kp = kd = 0.0
     for actuator in servos:
         square = actuator.gear * actuator.gear
-        stiffness -= actuator.bias[1] * square
-        damping -= actuator.bias[2] * square
-    return max(stiffness, 0.0), max(damping, 0.0)
+        kp -= actuator.bias[1] * square
+        kd -= actuator.bias[2] * square
+    return max(kp, 0.0), max(kd, 0.0)
 
 
 def _report_changes(
     joint: Joint, before: JointValues, after: JointValues, written: Written
 ) -> None:
     """Report values of the description that the actuator file replaces."""
+    sides = [{"effort": one.effort, **one.resistance} for one in (before, after)]
     changed = [
         f"{name} {new:g} instead of {'none' if old is None else f'{old:g}'}"
         for name in ("effort", *RESISTANCE_OF_URDF)
-        if (old := getattr(before, name)) != (new := getattr(after, name))
+        if (old := sides[0][name]) != (new := sides[1][name])
     ]
     if changed:
         written.report_loss(
@@ -174,7 +169,7 @@ def _report_missing_gains(
         return
     servos = [name for name in list_servo_joints(robot) if name in open_]
     text = (
-        f"the drives of {len(open_)} joints have stiffness and damping 0, since the description "
+        f"the drives of {len(open_)} joints have {' and '.join(GAINS)} 0, since the description "
         "has no gains: they apply the commanded effort"
     )
     if servos:

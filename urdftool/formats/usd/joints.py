@@ -278,7 +278,7 @@ def _convert_values(joint: Joint, values: JointValues) -> dict[str, float]:
         "velocityLimit": convert_position(joint, values.velocity or 0.0),
     }
     for row in RESISTANCE:
-        value = getattr(values, row.name)
+        value = values.resistance[row.name]
         name = row.usd.partition(":")[2]
         found[name] = convert_gain(joint, value) if "/rad" in row.unit else value
     return {name: value for name, value in found.items() if value}

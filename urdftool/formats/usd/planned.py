@@ -8,7 +8,6 @@ from dataclasses import replace
 
 from ...model.elements import Joint, Limit, Robot
 from ...model.mechanism import Base, Configuration, ContactExclusion, JointActuator
-from ...model.settings import RESISTANCE
 from .bodies import Bodies
 from .joint_values import JointValues, get_own_values
 
@@ -38,9 +37,7 @@ def _set_values(joint: Joint, values: JointValues | None) -> Joint:
         return joint
     own = get_own_values(joint)
     joint = joint.replace_resistance({
-        row.name: getattr(values, row.name)
-        for row in RESISTANCE
-        if getattr(values, row.name) != getattr(own, row.name)
+        name: value for name, value in values.resistance.items() if value != own.resistance[name]
     })  # fmt: skip
     if values.effort != own.effort:
         unlimited = Limit(joint.provenance, -math.inf, math.inf)  # no bound that is missing is 0

@@ -9,10 +9,11 @@ from typing import NamedTuple
 from pxr import Usd, UsdPhysics
 
 from ...diagnostic import Severity
+from ...model.drives import GAINS
 from ...model.elements import Dynamics, Joint, Limit, Mimic, Vector
 from ...model.mechanism import JointActuator
 from ...model.settings import RESISTANCE
-from .read_stage import GAINS, ROUNDING, Context, convert_float, get_targets, has_schema
+from .read_stage import ROUNDING, Context, convert_float, get_targets, has_schema
 
 _AXES: dict[str, Vector] = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
@@ -276,11 +277,11 @@ def read_actuator(
     units = find_units(context, JointKind(joint.type, freedom=freedom))
     if not has_drive(prim, units.name):
         return None
-    stiffness, damping = (
+    kp, kd = (
         convert_float(context.get_value(prim, f"drive:{units.name}:physics:{gain}") or 0.0, rate)
         for gain, rate in zip(GAINS, (units.force / units.position, units.rate), strict=True)
     )
-    if not stiffness and not damping:
+    if not kp and not kd:
         return None
     kind = prim.GetAttribute(f"drive:{units.name}:physics:type")
     if kind and kind.Get() == UsdPhysics.Tokens.acceleration:
@@ -291,8 +292,8 @@ def read_actuator(
         context.get_written(prim, f"drive:{units.name}:physics:stiffness"),
         joint.name,
         joint.name,
-        "position" if stiffness else "velocity",
-        gain=stiffness or damping,
-        bias=(0.0, -stiffness, -damping),
+        "position" if kp else "velocity",
+        gain=kp or kd,
+        bias=(0.0, -kp, -kd),
         force_range=None if effort is None else (-effort, effort),
     )

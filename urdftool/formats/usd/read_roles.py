@@ -9,10 +9,11 @@ from dataclasses import dataclass
 
 from pxr import Usd
 
+from ...model.drives import GAINS
 from ...model.settings import RESISTANCE, Setting
 from .read_joints import JointKind, Units, find_units, has_drive
 from .read_links import find_contradicting_inertia
-from .read_stage import GAINS, ROUNDING, Context
+from .read_stage import ROUNDING, Context
 
 _PHYSICAL = re.compile(r"(physics|physx\w*|newton|mjc|drive|limit|state|omniphysics|isaac):.+")
 

@@ -22,9 +22,6 @@ from .read_places import Layers
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
 """Quaternion of the identity."""
 
-GAINS = ("stiffness", "damping")
-"""Attributes of ``PhysicsDriveAPI`` with the gains of a servo."""
-
 ROUNDING = 1e-6
 """Relative difference of two 32-bit floats that rounding of one number explains: 8 ulp."""
 

@@ -7,9 +7,10 @@ import re
 from pxr import Sdf, Usd, UsdPhysics
 
 from ...diagnostic import Severity
+from ...model.drives import GAINS
 from ...model.settings import RESISTANCE
 from .read_native import has_default
-from .read_stage import GAINS, Context
+from .read_stage import Context
 
 _NAMESPACES = re.compile(r"(physics|physx\w*|newton|mjc|drive|limit|state|urdf|omniphysics)$")
 

@@ -18,7 +18,7 @@ from ...mechanics.reference import Mechanics
 from ...model.elements import Joint, Robot
 from ...model.kinematics import add_mimic_positions, get_limits
 from ...model.pose import rotation_from_quaternion
-from ...model.settings import RESISTANCE
+from ...model.settings import OF_LIMITS, RESISTANCE
 from ..common.losses import DeclaredLosses
 from .declared_losses import INERTIA, MASS, TREE
 from .verify_newton_shapes import compare_colliders
@@ -139,7 +139,7 @@ def _compare_joints(
     freedoms = Check("Newton: joints", "types and degrees of freedom", 0.0)
     values = Check(
         "Newton: joint values",
-        "limits, effort, velocity, friction, damping, armature, drives",
+        f"limits, {', '.join(row.name for row in (*OF_LIMITS, *RESISTANCE))}, drives",
         1e-6,
     )
     mimic = Check("Newton: mimic", "leader, factor and offset", 1e-6)
@@ -181,8 +181,8 @@ def _get_values(
             row.name: (getattr(joint.dynamics, row.name, None) or 0.0, read[row.name])
             for row in RESISTANCE
         },
-        "stiffness of the drive": (kp, read["target_ke"]),
-        "damping of the drive": (kd, read["target_kd"]),
+        "kp of the drive": (kp, read["target_ke"]),
+        "kd of the drive": (kd, read["target_kd"]),
     }
 
 

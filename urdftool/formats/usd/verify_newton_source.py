@@ -110,7 +110,7 @@ def get_effort(joint: Joint) -> float:
 
 
 def get_gains(robot: Robot, joint: Joint) -> tuple[float, float]:
-    """Return stiffness and damping of the drive of a joint [per rad or m]."""
+    """Return kp and kd of the drive of a joint [per rad or m]."""
     biases = [one.bias for one in robot.joint_actuators if one.joint == joint.name]
     return (-biases[0][1], -biases[0][2]) if biases else (0.0, 0.0)
 

@@ -72,8 +72,7 @@ _ATTRIBUTE_REMEDIES = {
     ("limit", "k_position"): "write it in <safety_controller>",
     ("limit", "soft_lower_limit"): "write it in <safety_controller>",
     ("limit", "soft_upper_limit"): "write it in <safety_controller>",
-    ("limit", "damping"): "write it in <dynamics>",
-    ("limit", "friction"): "write it in <dynamics>",
+    **{("limit", name): "write it in <dynamics>" for name in RESISTANCE_OF_URDF},
     ("joint", "parent"): 'write <parent link="…"/> inside it',
     ("joint", "child"): 'write <child link="…"/> inside it',
     ("inertia", "mass"): 'write <mass value="…"/> next to it',
@@ -235,7 +234,7 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     WARNING,
     effects=_ATTRIBUTE_EFFECTS,
     group="robot",
-    pedantic="additional parameters of a <dynamics> that has damping and friction",
+    pedantic=f"additional parameters of a <dynamics> that has {' and '.join(RESISTANCE_OF_URDF)}",
     infos=False,
 )
 def unknown_attribute(robot: Robot) -> Iterator[Problem]:

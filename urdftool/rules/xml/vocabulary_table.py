@@ -6,8 +6,11 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from ...model.elements import Robot
+from ...model.settings import RESISTANCE_OF_URDF
 from ...model.urdf_schema import DIALECTS, VOCABULARY
 from ...source.document import Element
+
+_WRITE_DYNAMICS = "write <dynamics " + " ".join(f'{name}="…"' for name in RESISTANCE_OF_URDF) + "/>"
 
 ELEMENT_REMEDIES = {
     ("robot", "inertial"): "write it inside a <link>",
@@ -51,10 +54,9 @@ ELEMENT_REMEDIES = {
     ("material", "specular"): "write <color rgba=…> in place of the SDF element",
     ("material", "script"): 'write materials of Gazebo inside <gazebo reference="the link">',
     ("joint", "pose"): "write <origin> in place of the SDF element",
-    ("joint", "joint_properties"): 'write <dynamics damping="…" friction="…"/>',
+    ("joint", "joint_properties"): _WRITE_DYNAMICS,
     ("joint", "joint_limits"): 'write <limit lower="…" upper="…" effort="…" velocity="…"/>',
-    ("joint", "damping"): 'write <dynamics damping="…"/>',
-    ("joint", "friction"): 'write <dynamics friction="…"/>',
+    **{("joint", name): f'write <dynamics {name}="…"/>' for name in RESISTANCE_OF_URDF},
     ("joint", "physics"): 'write it inside <gazebo reference="the joint">',
     ("joint", "actuator"): "write it inside a <transmission>",
     ("axis", "xyz"): 'write <axis xyz="x y z"/> in place of the SDF element',

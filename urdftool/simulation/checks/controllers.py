@@ -92,7 +92,7 @@ def _explain_unstable(run: Run, column: int, joint: RigidBodyJoint, control: Con
         most = 4 * inertia / step**2
         return f"gain p = {stiff:g} is unstable {what}; use a value below {most:.3g}"
     if control.kind == POSITION and recording.ended != "lost":
-        damping = pid.d + joint.damping
+        damping = pid.d + joint.resistance["damping"]
         critical = 2 * (pid.p * inertia) ** 0.5
         if damping < run.thresholds.damping_ratio * critical and pid.p > 0:
             return (

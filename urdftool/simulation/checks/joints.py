@@ -306,11 +306,12 @@ def _report_capped_damping(robot: Robot, run: Run) -> Iterator[Fault]:
             continue
         length, force = _choose_units(joint)
         part = robot.joint[joint.name]
-        least = run.settings.timestep * had / joint.damping
+        written = joint.resistance["damping"]
+        least = run.settings.timestep * had / written
         yield Fault(
             "damping-capped",
             Severity.INFO,
-            f"damping of joint '{joint.name}' was reduced from {joint.damping:.4g} to {had:.4g} "
+            f"damping of joint '{joint.name}' was reduced from {written:.4g} to {had:.4g} "
             f"{force}·s/{length} for numerical stability",
             (part.dynamics or part).place,
             "joint",

@@ -10,6 +10,7 @@ import numpy as np
 from ...diagnostic import Severity
 from ...listing import quote_first
 from ...model.elements import Robot
+from ...model.settings import RESISTANCE_OF_URDF
 from ..element_names import name_element
 from ..engines.registry import name_alternative
 from ..fault import Fault
@@ -126,12 +127,13 @@ def diagnose_motion(run: Run, drift: float) -> str:
     moves = [_moves(run, column) for column in range(len(joints))]
     loose = [j for j in joints if j.name not in run.bodies.held and not j.leader]
     if any(moves[recording.joints.index(joint.name)] for joint in loose):
-        damped = any(joint.damping or joint.friction for joint in loose)
-        if len(loose) == 1:
-            damping = "damping has not stopped it yet" if damped else "it has no damping"
-            return f"joint '{loose[0].name}' is not held, and {damping}"
-        damping = "damping has not stopped them yet" if damped else "they have no damping"
-        return f"{len(loose)} joints are not held, and {damping}"
+        which, it, them = f"joint '{loose[0].name}' is", "it has", "it"
+        if len(loose) > 1:
+            which, it, them = f"{len(loose)} joints are", "they have", "them"
+        why = f"{it} neither {' nor '.join(RESISTANCE_OF_URDF)}"
+        if any(value for joint in loose for value in joint.resistance.values()):
+            why = f"{' and '.join(RESISTANCE_OF_URDF)} have not stopped {them} yet"
+        return f"{which} not held, and {why}"
     swinging = [joint.name for column, joint in enumerate(joints) if is_swinging(run, column)]
     if swinging:
         if len(swinging) > 1:

@@ -72,7 +72,8 @@ def _check_sliding(robot: Robot, run: Run, state: FinalState) -> Iterator[Fault]
     slick = [
         name
         for name in names
-        if (friction := run.bodies.bodies[run.start.get_body(name)].surface.friction) is not None
+        if (friction := run.bodies.bodies[run.start.get_body(name)].surface.get("friction"))
+        is not None
         and friction < abs(math.tan(slope))
     ]
     rolled = _choose_rolled_links(run, dict.fromkeys((*supports, *find_initial_support_links(run))))

@@ -50,8 +50,8 @@ class World(Protocol):
         bodies: Rigid bodies of the robot.
         settings: Settings of the simulation.
         read_back: Values that the engine loaded differently than the file has them.
-        capped: Simulated damping of joints whose specified damping is unstable at the time step
-            [N·m·s/rad, N·s/m].
+        capped: Viscous resistance of joints for which it is less than in the file, because that is
+            unstable at the time step [N·m·s/rad, N·s/m].
     """
 
     version: str

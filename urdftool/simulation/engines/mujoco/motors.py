@@ -13,7 +13,7 @@ from ...settings import Settings
 from ..base import UNLIMITED_EFFORT
 
 _RIGID = (2.5, 1.0)
-"""Of a brake: time constant in timesteps, damping over critical. Chosen, no source."""
+"""Of a brake: time constant in timesteps, part of critical. Chosen, no source."""
 
 _IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """Parameters ``solimp`` of MuJoCo of joints that dry friction holds: almost rigid. Chosen, no
@@ -24,7 +24,7 @@ _STIFF = 0.5
 """Natural frequency of an unloaded joint under its servo, times the timestep. Chosen, no source."""
 
 _DAMPED = 10.0
-"""Its damping over critical; a load on it lowers that. Chosen, no source."""
+"""Its kd over the critical one; a load on it lowers that. Chosen, no source."""
 
 _CREEP = 0.25
 """S: time constant of the integral of the remaining error. Chosen, no source."""
@@ -92,10 +92,10 @@ class Motors:
         model = self._model
         inertia = _compute_motor_inertias(self._mj, model, self._data, self._dofs)
         fast = _STIFF / timestep
-        self._stiffness = inertia * fast**2
+        self._kp = inertia * fast**2
         # with implicit Euler, the spring force is that of the position after the step
-        self._damping = 2 * _DAMPED * inertia * fast + self._stiffness * timestep
-        self._growth = self._stiffness * timestep / _CREEP
+        self._kd = 2 * _DAMPED * inertia * fast + self._kp * timestep
+        self._growth = self._kp * timestep / _CREEP
         self._sum = np.zeros(len(self._dofs))
         model.actuator_gainprm[self._held, 0] = 1.0
         model.actuator_biastype[self._held] = self._mj.mjtBias.mjBIAS_AFFINE
@@ -106,7 +106,7 @@ class Motors:
         """Set the dry friction of joints held by it, and remove that of the others."""
         tight = np.where(self._braked, self._bound, 0.0)
         self._model.dof_frictionloss[self._dofs] = self._friction + tight
-        self._model.actuator_biasprm[self._held, 2] = np.where(self._braked, 0.0, -self._damping)
+        self._model.actuator_biasprm[self._held, 2] = np.where(self._braked, 0.0, -self._kd)
         self._sum[self._braked] = 0.0
 
     def drive(self) -> None:
@@ -131,7 +131,7 @@ class Motors:
         full = np.abs(data.actuator_force[self._held]) >= 0.999 * self._bound
         grown = np.where(full | braked, 0.0, self._growth * error)
         self._sum = np.clip(self._sum + grown, -self._bound, self._bound)
-        data.ctrl[self._held] = np.where(braked, 0.0, self._stiffness * error + self._sum)
+        data.ctrl[self._held] = np.where(braked, 0.0, self._kp * error + self._sum)
 
     def get_efforts(self, dofs: Any) -> Array:
         """Return the effort that drives or holds each degree of freedom [N·m, N]."""

@@ -11,6 +11,7 @@ import numpy as np
 from ....mechanics.spatial_inertia import SpatialInertia, combine
 from ....mechanics.tensor import compute_principal_moments
 from ....model.pose import rotation_from_quaternion
+from ....model.settings import RESISTANCE
 from ...recording import ReadBack
 from ...rigid_bodies import TENSOR_ROUNDING, RigidBody, RigidBodyModel
 
@@ -92,12 +93,11 @@ def _list_joint(model: Any, body: RigidBody, number: int) -> Iterator[ReadBack]:
             one, two = (f"{part[0]:g} to {part[1]:g}" for part in (limits, taken))
             yield ReadBack("joint", joint.name, "limits", one, two)
     dof = int(model.jnt_dofadr[number])
-    for what, wanted_loss, taken_loss in (
-        ("damping", joint.damping, float(np.ravel(model.dof_damping[dof])[0])),
-        ("friction", joint.friction, float(model.dof_frictionloss[dof])),
-    ):
-        if not math.isclose(wanted_loss, taken_loss, rel_tol=_CLOSE, abs_tol=1e-12):
-            yield ReadBack("joint", joint.name, what, f"{wanted_loss:g}", f"{taken_loss:g}")
+    for row in RESISTANCE:
+        if (value := joint.resistance.get(row.name)) is not None:
+            loaded = float(np.ravel(getattr(model, f"dof_{row.mjcf_attribute}")[dof])[0])
+            if not math.isclose(value, loaded, rel_tol=_CLOSE, abs_tol=1e-12):
+                yield ReadBack("joint", joint.name, row.name, f"{value:g}", f"{loaded:g}")
     if not np.allclose(model.jnt_axis[number], joint.axis, atol=1e-5):
         one, two = (
             " ".join(f"{value:.4g}" for value in part)

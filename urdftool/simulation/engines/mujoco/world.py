@@ -52,7 +52,7 @@ class MuJoCoWorld:
         """Load the model and set its initial state."""
         self.mj, self.bodies, self.settings = mj, bodies, settings
         self.version = str(mj.__version__)
-        self.capped: dict[str, float] = {}  # implicit integration is stable with any damping
+        self.capped: dict[str, float] = {}  # implicit integration is stable
         mj.set_mju_user_warning(lambda _: None)  # without it a log is written to the folder
         try:
             self.model = mj.MjModel.from_xml_path(str(folder / SCENE))
@@ -129,7 +129,7 @@ class MuJoCoWorld:
             body = lump.get(int(model.geom_bodyid[geom]))
             if body is None or geom == self.plane:
                 continue
-            own = body.surface.friction
+            own = body.surface.get("friction")
             model.geom_friction[geom, 0] = settings.friction if own is None else own
 
     def _place(self) -> None:

@@ -1,7 +1,7 @@
 """PyBullet, without its silent defaults.
 
 ``world`` steps the URDF that ``urdf`` writes. Turned off are: tensors computed from shapes instead
-of the file, a motor on every joint, damping that the file does not have, faceted cylinders, a fixed
+of the file, a motor on every joint, resistance that is not in the file, faceted cylinders, a fixed
 base if the base has no mass, locked joints without limits, and limits that heavy loads exceed.
 """
 

@@ -57,10 +57,14 @@ class Motors:
                 )
             else:
                 p.setJointMotorControl2(
-                    self.robot, link, p.VELOCITY_CONTROL, targetVelocity=0, force=joint.friction
+                    self.robot,
+                    link,
+                    p.VELOCITY_CONTROL,
+                    targetVelocity=0,
+                    force=joint.resistance["friction"],
                 )
                 p.changeDynamics(self.robot, link, jointDamping=self.damped[joint.name])
-                if self.damped[joint.name] < joint.damping:
+                if self.damped[joint.name] < joint.resistance["damping"]:
                     self.capped[joint.name] = self.damped[joint.name]
         self._follow()
         self._make_pids()
@@ -105,14 +109,14 @@ class Motors:
         Damping above half of inertia over time step is unstable; the limit still stops the joint
         within two steps.
         """
-        if not any(joint.damping for joint in self.bodies.joints):
+        if not any(joint.resistance["damping"] for joint in self.bodies.joints):
             return dict.fromkeys((joint.name for joint in self.bodies.joints), 0.0)
         try:
             moved = self._get_inertias()
         except (self.p.error, SystemError):  # it rejects some tensors because of rounding
             moved = self._compute_added_inertias()
         return {
-            joint.name: min(joint.damping, 0.5 * inertia / self.settings.timestep)
+            joint.name: min(joint.resistance["damping"], 0.5 * inertia / self.settings.timestep)
             for joint, inertia in zip(self.bodies.joints, moved, strict=True)
         }
 

@@ -120,15 +120,13 @@ class PyBulletWorld:
         for number, body in enumerate(self.bodies.bodies):
             surface = body.surface
             options: dict[str, float] = {
-                "lateralFriction": settings.friction
-                if surface.friction is None
-                else surface.friction,
+                "lateralFriction": surface.get("friction", settings.friction),
                 "restitution": 0.0,
                 "jointDamping": 0.0,
             }
-            if surface.stiffness is not None:
-                options["contactStiffness"] = surface.stiffness
-                options["contactDamping"] = surface.damping or 1.0
+            if "contact_stiffness" in surface:
+                options["contactStiffness"] = surface["contact_stiffness"]
+                options["contactDamping"] = surface.get("contact_damping") or 1.0
             p.changeDynamics(self.robot, self.link_of[number], **options)
             if number:
                 p.changeDynamics(self.robot, self.link_of[number], jointLimitForce=_STOP)
