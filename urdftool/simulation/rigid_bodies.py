@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,14 +12,13 @@ from ..mechanics.spatial_inertia import SpatialInertia, combine, link_inertia
 from ..model.actuation import find_actuated_joints
 from ..model.elements import ZERO, Joint, Link, Robot
 from ..model.kinematics import find_movable_joints, get_limits, link_poses
-from ..model.pose import IDENTITY, Pose, make_pose
+from ..model.pose import IDENTITY, Pose, make_pose, rotation_from_rpy
 from ..model.settings import RESISTANCE_OF_URDF, SURFACE, get_number
 from ..model.start import start_positions
 from .control import NONE
 from .recording import Array
 from .settings import Settings
 from .shapes import Shape, make_shapes
-from .spawn import spawn_pose
 
 
 def choose_surface(robot: Robot, links: Iterable[str]) -> dict[str, float]:
@@ -186,7 +185,7 @@ def make_rigid_bodies(robot: Robot, settings: Settings) -> RigidBodyModel:
     back = poses[top].invert()
     shapes = [(back @ poses[body.name], body.shapes) for body in made]
     at_origin = fixed_base and _is_world(robot.link[top])
-    start, size = spawn_pose(shapes, settings, fixed=fixed_base, at_origin=at_origin)
+    start, size = _spawn_pose(shapes, settings, fixed=fixed_base, at_origin=at_origin)
     origins = np.array([pose.translation for pose, _ in shapes])
     return RigidBodyModel(
         tuple(made),
@@ -329,3 +328,62 @@ def list_held_joints(robot: Robot, bodies: list[RigidBody], settings: Settings) 
         actuated = find_actuated_joints(robot)
         return tuple(name for name in names if name in actuated)
     return tuple(names)
+
+
+_GAP = 1e-4
+"""Height of the lowest point above the plane at the start [m]. Chosen, no source."""
+
+_CLEAR = 0.05
+"""Height of the moving links on a fixed base above the plane at the start, over the robot's size.
+Joint drift of an arm of this length is reported before its end is as low as the plane. Chosen, no
+source.
+"""
+
+
+def _spawn_pose(
+    parts: Sequence[tuple[Pose, Sequence[Shape]]],
+    settings: Settings,
+    *,
+    fixed: bool,
+    at_origin: bool,
+) -> tuple[Pose, float]:
+    """Compute the pose of the root above the plane, and the largest extent of the robot [m].
+
+    The lowest point of a robot starts on the plane. If the base is fixed and the lowest link moves,
+    it starts clear of the plane, which would carry a load that the joints must hold.
+
+    ``at_origin``: the file places the root, which is raised only if it is below the plane.
+    """
+    upright = Pose(rotation_from_rpy(settings.upright_rpy))
+    turn = Pose(rotation_from_rpy(settings.start_rpy)) @ upright
+    low, high = _compute_bounds(parts, turn)
+    size = float((high - low).max()) if np.isfinite(low).all() else 0.0
+    if settings.height is not None:
+        return Pose(turn.rotation, (0.0, 0.0, settings.height)), size
+    if not fixed:
+        height = _GAP - float(low[2])
+    else:
+        root, moving = (float(_compute_bounds(some, turn)[0][2]) for some in (parts[:1], parts[1:]))
+        height = max(_GAP - root, _CLEAR * size - moving)
+    if not math.isfinite(height):
+        height = 0.0
+    elif at_origin:
+        height = max(0.0, height)
+    return Pose(turn.rotation, (0.0, 0.0, height)), size
+
+
+def _compute_bounds(
+    parts: Iterable[tuple[Pose, Sequence[Shape]]], turn: Pose
+) -> tuple[Array, Array]:
+    """Compute the box around shapes of a turned robot; infinite without shapes."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for place, shapes in parts:
+        if not shapes:
+            continue
+        pose = turn @ place
+        rotation, at = np.array(pose.rotation), np.array(pose.translation)
+        for axis in range(3):
+            along = rotation.T @ np.eye(3)[axis]
+            low[axis] = min(low[axis], at[axis] - max(s.compute_reach(-along) for s in shapes))
+            high[axis] = max(high[axis], at[axis] + max(s.compute_reach(along) for s in shapes))
+    return low, high

@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from pxr import Usd
 
 from ...diagnostic import Severity
 from ...lint.validate import validate
-from ...model.elements import Joint, Robot
+from ...model.elements import Joint, Limit, Robot
 from ...model.kinematics import follow_mimic_chain
+from ...model.mechanism import Base, Configuration, ContactExclusion, JointActuator
+from ...model.part import Part
+from ...model.settings import SPRING, Setting
 from ..common.naming import replace_file_name, shorten_file_name
 from ..common.srdf import read_srdf
-from ..common.unexpressed import list_link_exclusions
+from ..common.unexpressed import (
+    list_link_exclusions,
+    report_blocks,
+    report_looks,
+    report_unexpressed,
+    report_unwritten_settings,
+)
 from ..defects import FATAL, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
 from .bodies import Bodies, make_bodies, report_floating
@@ -20,7 +32,7 @@ from .contacts import list_overlaps, write_pairs, write_self_collision
 from .files import make_layered_files, make_single_file
 from .home import plan_home, plan_servos
 from .inertials import make_inertias
-from .joint_values import choose_joint_values, read_joint_settings
+from .joint_values import JointValues, choose_joint_values, get_own_values, read_joint_settings
 from .joints import JointWriter, report_unwritten_spring
 from .links import LinkWriter
 from .loops import write_closures, write_frames
@@ -28,11 +40,9 @@ from .materials import FOLDER, MaterialWriter
 from .meshes import Meshes
 from .names import Names, make_names
 from .options import Options
-from .planned import make_planned
 from .shapes import ShapeWriter
 from .stage import ISAAC, LAYERS, PHYSX, StageBuilder, apply, set_targets, set_value
 from .surfaces import SurfaceWriter
-from .unexpressed import report_losses
 
 _APPROXIMATIONS = {"hull": "convexHull", "mesh": "none"}
 
@@ -60,7 +70,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     if any(finding.code in FATAL for finding in found):
         refuse(found, force=options.force)
     written.losses += world if options.force else []
-    report_losses(robot, written)
+    _report_losses(robot, written)
     packages = robot.source.packages if robot.source is not None else None
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
     bodies = make_bodies(robot, options.base, srdf.virtual_joint if srdf else None, written)
@@ -90,7 +100,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     given = [*list_link_exclusions(robot, written), *overlaps]
     exclusions = [(pair.link, pair.other) for pair in given]
     pairs = [*exclusions, *(srdf.disabled if srdf else ())]
-    planned = make_planned(bodies, values, home.positions, pairs)
+    planned = _make_planned(bodies, values, home.positions, pairs)
     joints = JointWriter(builder, bodies, names, options, values, home.positions, written)
     _write_joints(joints, links, options, planned)
     written.planned = planned
@@ -225,3 +235,121 @@ def _find_obstacle(joint: Joint, movable: dict[str, Joint]) -> str:
     if joint.mimic.joint not in movable:
         return f"joint '{joint.mimic.joint}' does not exist or has no position"
     return ""
+
+
+_EXPRESSED = (
+    "closure",
+    "joint-actuator",
+    "exclusion",
+    "frame",
+    "base",
+    "joint-spring",
+    "joint-armature",
+    "setting",
+)
+"""Codes of parts of SDF and MJCF that an export to USD writes, or reports itself."""
+
+
+def _report_losses(robot: Robot, written: Written) -> None:
+    """Report each part that is not written."""
+    report_unexpressed(robot, written, expressed=_EXPRESSED)
+    report_unwritten_settings(robot, written, _is_written)
+    report_blocks(robot, written)
+    report_looks(robot, written)
+    for code, what, part, name in _list_parts(robot):
+        written.report_loss(
+            code,
+            f"{what} is not written",
+            part.place,
+            kind="joint" if name else "",
+            name=name,
+            severity=Severity.INFO,
+        )
+
+
+def _is_written(row: Setting) -> bool:
+    """Tell whether an export writes a setting, or reports it itself."""
+    return bool(row.usd) or row.name in (*SPRING, "self_collide")
+
+
+def _list_parts(robot: Robot) -> Iterator[tuple[str, str, Part, str]]:
+    for joint in robot.joints:
+        if joint.safety_controller is not None:
+            what = f"<safety_controller> of joint '{joint.name}'"
+            yield "safety-controller", what, joint.safety_controller, joint.name
+        if joint.calibration is not None:
+            what = f"<calibration> of joint '{joint.name}'"
+            yield "calibration", what, joint.calibration, joint.name
+    for transmission in robot.transmissions:
+        yield "transmission", f"transmission '{transmission.name}'", transmission, ""
+    for control in robot.ros2_controls:
+        yield "ros2-control", f"<ros2_control> '{control.name}'", control, ""
+    inside = {id(plugin) for sensor in robot.sensors for plugin in sensor.plugins}
+    for plugin in robot.plugins:
+        if id(plugin) not in inside:
+            yield "plugin", f"plugin '{plugin.filename or plugin.name}'", plugin, ""
+    for sensor in robot.sensors:
+        yield "sensor", f"sensor '{sensor.name}' of type {sensor.type}", sensor, ""
+
+
+def _make_planned(
+    bodies: Bodies,
+    values: Mapping[str, JointValues],
+    home: Mapping[str, float],
+    pairs: Iterable[tuple[str, str]],
+) -> Robot:
+    """Return the robot with the chosen base, home, values and drives of joints, contact pairs."""
+    robot = bodies.robot
+    origin = None if robot.base is None else robot.base.origin
+    return replace(
+        robot,
+        base=Base(robot.provenance, bodies.free, origin),
+        joints=[_set_values(joint, values.get(joint.name)) for joint in robot.joints],
+        joint_actuators=list(_make_drives(robot, values)),
+        configurations=[Configuration(robot.provenance, "home", dict(home))],
+        exclusions=list(_make_exclusions(bodies, pairs)),
+    )
+
+
+def _set_values(joint: Joint, values: JointValues | None) -> Joint:
+    """Return a joint with the values that are not those of the description."""
+    if values is None:
+        return joint
+    own = get_own_values(joint)
+    joint = joint.replace_resistance({
+        name: value for name, value in values.resistance.items() if value != own.resistance[name]
+    })  # fmt: skip
+    if values.effort != own.effort:
+        unlimited = Limit(joint.provenance, -math.inf, math.inf)  # no bound that is missing is 0
+        limit = replace(joint.limit or unlimited, effort=values.effort)
+        joint = replace(joint, limit=limit)
+    return joint
+
+
+def _make_drives(robot: Robot, values: Mapping[str, JointValues]) -> Iterator[JointActuator]:
+    """Yield the drives with gains; one without applies the commanded effort."""
+    for joint in robot.joints:
+        one = values.get(joint.name)
+        if one is None or not (one.kp or one.kd):
+            continue
+        yield JointActuator(
+            joint.provenance,
+            joint.name,
+            joint.name,
+            "position" if one.kp else "velocity",
+            gain=one.kp or one.kd,
+            bias=(0.0, -one.kp, -one.kd),
+            force_range=None if one.effort is None else (-one.effort, one.effort),
+        )
+
+
+def _make_exclusions(
+    bodies: Bodies, pairs: Iterable[tuple[str, str]]
+) -> Iterator[ContactExclusion]:
+    """Yield the pairs of bodies of which links never collide, each once."""
+    known: set[tuple[str, str]] = set()
+    for one, other in pairs:
+        first, second = sorted((bodies.carrier[one], bodies.carrier[other]))
+        if first and second and first != second and (first, second) not in known:
+            known.add((first, second))
+            yield ContactExclusion(bodies.robot.provenance, first, second)

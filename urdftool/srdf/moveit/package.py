@@ -7,12 +7,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ...errors import ConfigError
+from ...model.elements import Joint
 from ...model.moveit_parameters import MANAGER
+from ...model.start import list_initial_positions
 from ...source.edit import Edit, apply
 from ...source.location import SourceFile
 from ...source.nearby_files import read_optional_file
 from ...source.yaml_tree import Node, parse_yaml
 from ...workspace import Workspace
+from ..states import get_default_position, is_within
 from .configuration import Configuration
 from .controllers import (
     PlannedController,
@@ -32,8 +35,7 @@ from .description_files import (
 )
 from .existing_srdf import SrdfChanges
 from .package_files import make_assistant_settings, make_build_file, make_manifest, make_rviz
-from .parameters import CARTESIAN_LIMITS, make_initial_positions, make_joint_limits, make_kinematics
-from .yaml_text import Tree, append_items, complete, format_yaml
+from .yaml_text import Commented, Tree, Value, append_items, complete, format_yaml
 
 _MOVEIT, _ROS2 = "config/moveit_controllers.yaml", "config/ros2_controllers.yaml"
 
@@ -118,7 +120,7 @@ def make_package(configuration: Configuration, files: PackageFiles) -> None:
     files.add_text(f"{stem}.urdf.xacro", make_description(configuration))
     if list_mock_joints(configuration):
         _add_mock_hardware(configuration, files, f"{stem}.ros2_control.xacro")
-        positions = make_initial_positions(configuration)
+        positions = _make_initial_positions(configuration)
         files.add_parameters(
             "config/initial_positions.yaml", positions, "Where mock hardware starts"
         )
@@ -140,16 +142,16 @@ def _add_mock_hardware(configuration: Configuration, files: PackageFiles, path: 
 def _add_parameter_files(configuration: Configuration, files: PackageFiles) -> None:
     files.add_parameters(
         "config/joint_limits.yaml",
-        make_joint_limits(configuration),
+        _make_joint_limits(configuration),
         "Limits of MoveIt; numbers must be doubles: 3.0, not 3.",
         "Increase the scaling factors up to 1.0 for full speed.",
     )
-    kinematics = make_kinematics(configuration)
+    kinematics = _make_kinematics(configuration)
     if kinematics or files.read("config/kinematics.yaml") is None:
         files.add_parameters("config/kinematics.yaml", kinematics)
     files.add_parameters(
         "config/pilz_cartesian_limits.yaml",
-        CARTESIAN_LIMITS,
+        _CARTESIAN_LIMITS,
         "Limits of the tip for the Pilz planner [m/s, m/s^2, rad/s]: guesses, not of this robot",
     )
 
@@ -230,3 +232,85 @@ def make_launch_files(configuration: Configuration) -> Iterator[tuple[str, str]]
     for name in LAUNCHES:
         text = _TEXT.format(name=name, stem=configuration.stem, package=configuration.package)
         yield f"launch/{name}.launch.py", text
+
+
+_RAMP = 0.5
+"""Time to reach the velocity limit at the guessed acceleration [s]; chosen, no source."""
+
+_VELOCITY = 1.0
+"""Guessed velocity limit of a joint without one [rad/s, m/s]; chosen, no source."""
+
+_FULL_POSE = 6
+"""Least number of joints with which a chain reaches poses of any orientation."""
+
+_LEAST_JOINTS = 3
+"""Least number of joints of a chain that gets a solver; chosen, no source."""
+
+_CARTESIAN_LIMITS: Tree = {
+    "cartesian_limits": {
+        "max_trans_vel": 1.0,
+        "max_trans_acc": 2.25,
+        "max_trans_dec": -5.0,
+        "max_rot_vel": 1.57,
+    }
+}
+"""Limits for Pilz [m/s, m/s², m/s², rad/s], the values of MoveIt's Setup Assistant."""
+
+
+def _make_joint_limits(configuration: Configuration) -> Tree:
+    """Make the content of ``joint_limits.yaml``: velocities of the description, accelerations."""
+    limits = {joint.name: _make_limits(joint) for joint in configuration.active_joints}
+    return {
+        "default_velocity_scaling_factor": 0.1,
+        "default_acceleration_scaling_factor": 0.1,
+        "joint_limits": limits,
+    }
+
+
+def _make_limits(joint: Joint) -> Tree:
+    written = joint.get_magnitude("velocity") or 0.0
+    has = 0.0 < written < float("inf")
+    velocity = written if has else _VELOCITY
+    guess = "guess: the description has no velocity limit"
+    acceleration = float(f"{velocity / _RAMP:.6g}")
+    return {
+        "has_velocity_limits": True,
+        "max_velocity": float(velocity) if has else Commented(velocity, guess),
+        "has_acceleration_limits": True,
+        "max_acceleration": Commented(acceleration, "guess: URDF has no acceleration limits"),
+    }
+
+
+def _make_kinematics(configuration: Configuration) -> Tree:
+    """Make the content of ``kinematics.yaml``: a solver for each chain."""
+    found: dict[str, Tree] = {}
+    for name, group in configuration.groups.items():
+        count = len(configuration.list_group_joints(group))
+        if len(group.chains) == 1 and not group.groups and count >= _LEAST_JOINTS:
+            found[name] = _make_solver(count)
+    return found
+
+
+def _make_solver(count: int) -> Tree:
+    solver: dict[str, Value] = {
+        "kinematics_solver": "kdl_kinematics_plugin/KDLKinematicsPlugin",
+        "kinematics_solver_search_resolution": 0.005,
+        "kinematics_solver_timeout": 0.05,
+    }
+    if count < _FULL_POSE:
+        comment = f"{count} joints do not reach every orientation"
+        solver["position_only_ik"] = Commented(True, comment)
+    return solver
+
+
+def _make_initial_positions(configuration: Configuration) -> Tree:
+    """Make the content of ``initial_positions.yaml``, where mock hardware starts."""
+    robot = configuration.robot
+    known = list_initial_positions(robot)
+    found: dict[str, float] = {}
+    for joint in configuration.active_joints:
+        value = known.get(joint.name)
+        if value is None or not is_within(robot, joint.name, value):
+            value = get_default_position(robot, joint)
+        found[joint.name] = float(value or 0.0)
+    return {"initial_positions": found}
