@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..model.elements import Robot
+from ..model.link import COMPONENTS
 from ..model.numbers import parse_numbers
 from ..model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 from ..source.document import Element
 
-_SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _MASS = ("mass", "mass matrix", "gravity")
 _INERTIA = ("inertia", "mass matrix")
 _SHAPES = ("collisions", "visuals")
@@ -37,7 +37,7 @@ class _Kind(NamedTuple):
 
 _KINDS = {
     "mass": _Kind(_MASS, ("value",)),
-    "inertia": _Kind(_INERTIA, _SIX),
+    "inertia": _Kind(_INERTIA, COMPONENTS),
     "axis": _Kind(("axes",)),
     "limit": _Kind(("limits",)),
     "dynamics": _Kind(("joint physics",)),
@@ -141,7 +141,7 @@ def _is_unreadable(name: str, text: str) -> bool:
 
 
 _NUMBERS = frozenset((
-    *_COUNTS, *_SIX,
+    *_COUNTS, *COMPONENTS,
     *("value", "radius", "length", *LIMIT_NAMES, "acceleration", "jerk"),
     *RESISTANCE_OF_URDF, *("deceleration", "multiplier", "offset", "soft_lower_limit"),
     *("soft_upper_limit", "k_position", "k_velocity", "rising", "falling", "reference_position"),

@@ -10,6 +10,7 @@ from ..model.elements import Joint
 from ..model.kinematics import MOVABLE, compute_motion
 from ..model.numbers import number
 from ..model.pose import make_pose
+from ..model.urdf_schema import VOCABULARY
 from ..source.document import Element
 from .around import shift_files
 from .change import SAME, Change
@@ -115,7 +116,7 @@ def _change_pair(
 def _change_calibration(draft: Draft, element: Element, change: Change) -> None:
     texts = {
         name: change.format(element.get(name))
-        for name in ("rising", "falling", "reference_position")
+        for name in VOCABULARY["calibration"].attributes
         if element.get(name) is not None
     }
     if change.sign < 0:

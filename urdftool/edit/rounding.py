@@ -4,29 +4,19 @@ from __future__ import annotations
 
 from ..errors import ModelError
 from ..model.numbers import parse_numbers
-from ..model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
+from ..model.urdf_schema import VOCABULARY
 from ..source.document import Element
 from .draft import Draft
 from .numbers import format_number, format_relative
 
+_RELATIVE = {tag: VOCABULARY[tag].attributes for tag in ("mass", "inertia")}
+
 _ATTRIBUTES = {
-    "origin": ("xyz", "rpy"),
-    "axis": ("xyz",),
-    "limit": LIMIT_NAMES,
-    "mimic": ("multiplier", "offset"),
-    "dynamics": RESISTANCE_OF_URDF,
-    "safety_controller": ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"),
-    "calibration": ("rising", "falling", "reference_position"),
-    "box": ("size",),
-    "cylinder": ("radius", "length"),
-    "capsule": ("radius", "length"),
-    "sphere": ("radius",),
-    "mesh": ("scale",),
-    "color": ("rgba",),
+    tag: tuple(name for name in kind.numbers if name in kind.held and name != "quat_xyzw")
+    for tag, kind in VOCABULARY.items()
+    if kind.numbers and tag not in _RELATIVE
 }
 """Attributes whose tolerance is absolute below 1."""
-
-_RELATIVE = {"mass": ("value",), "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
 
 
 def round_numbers(draft: Draft, tolerance: float) -> int:

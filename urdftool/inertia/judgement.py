@@ -12,11 +12,12 @@ from ..finding import Finding
 from ..geometry.convex_points import read_convex_points
 from ..mechanics.mass_bounds import Misfit, check_com, check_spread, name_shapes
 from ..mechanics.spatial_inertia import SpatialInertia, link_inertia
-from ..mechanics.tensor import COMPONENTS, rotate_tensor
+from ..mechanics.tensor import rotate_tensor
 from ..mechanics.typo_detection import Proposal, infer_intended_tensor
 from ..model.attached import find_attached_links
 from ..model.bounds import Bounds, compute_bounds_at
 from ..model.elements import Inertial, Mesh, Robot
+from ..model.link import COMPONENTS
 from ..model.pose import IDENTITY, IDENTITY_ROTATION, Pose, make_pose, rotate, transpose
 from ..model.read import number
 from ..model.world import WORLD

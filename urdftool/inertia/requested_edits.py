@@ -10,8 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import COMPONENTS, as_tensor, get_components, rotate_tensor
+from ..mechanics.tensor import as_tensor, get_components, rotate_tensor
 from ..model.elements import Link
+from ..model.link import COMPONENTS
 from ..model.numbers import format_numbers_text, number_text
 from ..model.pose import transpose
 from ..model.read import number, parse_numbers

@@ -7,17 +7,13 @@ from collections.abc import Sequence
 
 from ..errors import SourceError, UrdftoolError
 from ..listing import quote_first
+from ..model.urdf_schema import VOCABULARY
 from ..source.document import Document, Element
 
 _WORD = re.compile(r"(?!INF|NAN)[A-Z][A-Z0-9_]{2,}|__[A-Z][A-Z0-9_]*__")
 """A word that a program replaces by a number."""
 
-_NUMBERS = frozenset(
-    (
-        *("value", "xyz", "rpy", "rgba", "size", "radius", "length", "scale", "lower", "upper"),
-        *("effort", "velocity", "ixx", "ixy", "ixz", "iyy", "iyz", "izz", "multiplier", "offset"),
-    )
-)
+_NUMBERS = frozenset(name for kind in VOCABULARY.values() for name in kind.numbers)
 """Attributes of URDF that are numbers."""
 
 FEWEST = 2

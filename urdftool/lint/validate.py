@@ -14,7 +14,7 @@ from ..diagnostic import Severity
 from ..errors import ModelError
 from ..finding import Finding
 from ..model.elements import Joint, Link, Robot
-from ..model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
+from ..model.urdf_schema import VOCABULARY
 from ..rules import get_rule
 from ..rules.rule import Problem
 
@@ -42,15 +42,14 @@ _DETACHED = _make_conditions(is_detached=(True,), has_root=(True,))
 _NO_BALL = _make_conditions(is_ball=(False,))
 _WRITTEN = _make_conditions(
     part=("link", "joint", "material"),
-    attribute=(
-        *("xyz", "rpy", "quat_xyzw", "size", "radius", "length", "scale", "rgba"),
-        *("value", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
-        *LIMIT_NAMES,
-        *RESISTANCE_OF_URDF,
-        *("multiplier", "offset"),
+    attribute=tuple(
+        name
+        for tag, kind in VOCABULARY.items()
+        for name in kind.numbers
+        if name in kind.held and tag not in ("safety_controller", "calibration")
     ),
 )
-"""Numbers that an export writes; those of ``<safety_controller>`` are not among them."""
+"""Numbers that an export writes."""
 
 ENDS = tuple(
     map(Requirement, ("missing-parent-or-child", "unknown-parent-link", "unknown-child-link"))

@@ -12,6 +12,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..model.elements import Inertia, Vector
+from ..model.link import COMPONENTS
 from ..model.pose import IDENTITY_ROTATION, Rotation, multiply_matrices, transpose
 
 if TYPE_CHECKING:
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 
 SymmetricTensor = tuple[float, float, float, float, float, float]
 
-COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-"""URDF names of the six numbers, in their order."""
 
 ZERO_TENSOR: SymmetricTensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 

@@ -16,8 +16,9 @@ from typing import NamedTuple
 
 from ..model.bounds import Bounds
 from ..model.elements import Vector
+from ..model.link import COMPONENTS
 from ..model.pose import Rotation, transpose
-from .tensor import COMPONENTS, SymmetricTensor, measure_consistency, rotate_tensor, shift_to_com
+from .tensor import SymmetricTensor, measure_consistency, rotate_tensor, shift_to_com
 
 DIAGONAL = (0, 3, 5)
 """Positions of the three moments among the six numbers, by definition."""

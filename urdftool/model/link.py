@@ -8,6 +8,9 @@ from .part import Origin, Part, Vector
 from .settings import Settings, is_set
 from .shapes import Geometry
 
+COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+"""Names of the six numbers of a tensor in URDF and SDF, in their order."""
+
 
 @dataclass(slots=True)
 class Inertia(Part):

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
+from ..model.link import COMPONENTS
 from ..source.document import Element
 from .appearance import add_appearance
 from .blocks import add_blocks
@@ -118,7 +119,7 @@ def _read_inertial(element: Element) -> Inertial:
         elif tag == "inertia" and inertial.inertia is None:
             inertial.inertia = Inertia(
                 child,
-                *(_number(child, n) for n in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
+                *(_number(child, n) for n in COMPONENTS),
             )
         elif tag == "origin" and inertial.origin is None:
             inertial.origin = _read_origin(child)

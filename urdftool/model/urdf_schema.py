@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ..model.link import COMPONENTS
 from .settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 
 BLOCKS = ("gazebo", "transmission", "ros2_control")
@@ -54,7 +55,7 @@ VOCABULARY: dict[str, ElementType] = {
     ),
     "inertial": ElementType(("origin", "mass", "inertia")),
     "mass": ElementType(numbers=_count_one("value")),
-    "inertia": ElementType(numbers=_count_one("ixx", "ixy", "ixz", "iyy", "iyz", "izz")),
+    "inertia": ElementType(numbers=_count_one(*COMPONENTS)),
     "visual": ElementType(("origin", "geometry", "material"), words=("name",)),
     "collision": ElementType(("origin", "geometry"), words=("name",)),
     "origin": ElementType(numbers={"xyz": 3, "rpy": 3, "quat_xyzw": 4}),

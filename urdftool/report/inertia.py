@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import COMPONENTS, compute_principal_axes, get_components
+from ..mechanics.tensor import compute_principal_axes, get_components
+from ..model.link import COMPONENTS
 from ..model.numbers import format_numbers_text, number_text, remove_noise
 from .json_text import format_json
 

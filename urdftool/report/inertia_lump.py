@@ -8,8 +8,8 @@ from ..control_characters import escape_controls
 from ..inertia.lump import Lumped
 from ..inertia.rounding import round_properties
 from ..mechanics.spatial_inertia import SpatialInertia
-from ..mechanics.tensor import COMPONENTS
 from ..model.elements import Robot
+from ..model.link import COMPONENTS
 from .inertia import build_numbers
 from .json_text import format_json
 from .tables import render_table

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from ..model.link import COMPONENTS
+
 ELEMENTS: dict[str, str] = {
     "robot": "a robot: links, connected by joints to a tree",
     "link": "a rigid body, or a coordinate frame if it has no mass and no geometry",
@@ -60,7 +62,7 @@ ATTRIBUTES: dict[tuple[str, str], str] = {
     ("mimic", "offset"): "offset [rad; m for prismatic]; default 0",
     **{
         ("inertia", name): f"element {name[1:]} of the inertia tensor [kg·m²]"
-        for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+        for name in COMPONENTS
     },
 }
 """Meaning, unit and default of attributes."""

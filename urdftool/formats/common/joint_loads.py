@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ...mechanics.spatial_inertia import SpatialInertia
 from ...model.elements import Joint
-from ...model.kinematics import link_poses
+from ...model.kinematics import MOVABLE, link_poses
 from ...model.pose import IDENTITY, Pose
 from .rigid_tree import RigidTree
 from .standing import CLEARANCE, Ground
@@ -113,7 +113,7 @@ def compute_joint_loads(
     forces = _compute_forces(bodies, points)
     below = _get_bodies_below(tree)
     found = {}
-    joints = [j for j in tree.moving if j.type in ("revolute", "continuous", "prismatic")]
+    joints = [j for j in tree.moving if j.type in MOVABLE]
     ratios = _compute_ratios(tree, joints, poses, bodies, below)
     leaders = {joint.mimic.joint for joint in tree.moving if joint.mimic is not None}
     for joint in joints:

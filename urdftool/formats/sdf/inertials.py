@@ -7,7 +7,6 @@ from functools import partial
 from ...diagnostic import Severity
 from ...mechanics.repair import find_nearest_consistent
 from ...mechanics.tensor import (
-    COMPONENTS,
     ROUNDING,
     WRITTEN_ROUNDING,
     SymmetricTensor,
@@ -18,6 +17,7 @@ from ...mechanics.tensor import (
     measure_consistency,
 )
 from ...model.elements import Link, Part, Vector
+from ...model.link import COMPONENTS
 from ...model.numbers import number_text
 from ...model.pose import Pose
 from ..common.inertia_repair import repair_tensor

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
+from ...model.kinematics import MOVABLE
 from ...model.numbers import number_text
 from ..common.actuator_config import JointSettings, read_actuator_config
 from ..written import Written
 from .options import Options
 
-_TYPES = ("revolute", "continuous", "prismatic")
 _OF_CONTROLLERS = ("kp", "kd", "armature", "type")
 
 
@@ -26,7 +26,7 @@ def choose_joint_settings(
     """
     if options.actuator_config is None:
         return {}
-    names = [joint.name for joint in robot.joints if joint.type in _TYPES]
+    names = [joint.name for joint in robot.joints if joint.type in MOVABLE]
     found = read_actuator_config(options.actuator_config).match_joints(names)
     for name, settings in found.items():
         texts = []

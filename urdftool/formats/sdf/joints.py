@@ -6,6 +6,7 @@ import math
 
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Vector
+from ...model.kinematics import MOVABLE
 from ...model.numbers import format_numbers_text, number_text
 from ...model.pose import IDENTITY, compute_cross, compute_norm
 from ...model.settings import MAGNITUDES, RESISTANCE
@@ -150,7 +151,7 @@ def _add_mimic(axis: Node, t: Translation, part: Joint) -> None:
     if mimic is None:
         return
     leader = t.robot.joint.get(mimic.joint)
-    can_lead = leader is not None and leader.type in ("revolute", "continuous", "prismatic")
+    can_lead = leader is not None and leader.type in MOVABLE
     if not can_lead or leader is part:
         text = f"joint '{part.name}' mimics '{mimic.joint}', which does not move; it moves freely"
         t.report_loss("mimic", text, mimic, part)

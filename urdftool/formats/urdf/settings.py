@@ -9,11 +9,10 @@ from lxml import etree
 from ...diagnostic import Severity
 from ...model.block_elements import make_taking_name, takes_settings
 from ...model.elements import Joint, Link, Robot
+from ...model.kinematics import MOVABLE
 from ...model.numbers import format_content
 from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Setting, Settings
 from .translation import Translation, add
-
-_WITH_SPRING = ("revolute", "continuous", "prismatic")
 
 
 def add_settings(t: Translation) -> None:
@@ -28,7 +27,7 @@ def add_settings(t: Translation) -> None:
             _rename_collisions(t, link)
     for joint in t.robot.joints:
         settings = joint.settings
-        if joint.spring is not None and joint.type not in _WITH_SPRING:
+        if joint.spring is not None and joint.type not in MOVABLE:
             text = f"the spring of joint '{joint.name}' is dropped: the joint has type {joint.type}"
             t.written.report_loss("spring", text, joint.place, kind="joint", name=joint.name)
             settings = {name: v for name, v in settings.items() if not name.startswith("spring")}

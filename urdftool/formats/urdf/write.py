@@ -14,6 +14,7 @@ from ...listing import quote_first
 from ...model.drawn import list_drawn_once
 from ...model.elements import BALL_TYPES, Collision, Joint, Link, Origin, Robot, Visual
 from ...model.kinematics import UNLIMITED
+from ...model.link import COMPONENTS
 from ...model.mechanism import Base, Frame
 from ...model.numbers import number_text
 from ...model.selection import list_below, measure_tree, select_links
@@ -107,8 +108,7 @@ def _add_link(t: Translation, link: Link) -> None:
         add_origin(inner, inertial.origin)
         add(inner, "mass", value=number_text(inertial.mass))
         six = (0.0,) * 6 if inertial.inertia is None else inertial.inertia.six
-        names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-        add(inner, "inertia", **{n: number_text(v) for n, v in zip(names, six, strict=True)})
+        add(inner, "inertia", **{n: number_text(v) for n, v in zip(COMPONENTS, six, strict=True)})
     contact = link.find_child_xml("contact")
     if contact is not None:
         copy_element(node, contact)

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from ...model.elements import Joint, Robot
+from ...model.kinematics import MOVABLE
 from ...model.numbers import round_noise
 from ...model.settings import RESISTANCE
 from ...model.start import start_positions
@@ -84,8 +85,7 @@ class _Config:
         self._robot, self._bodies, self._names = bodies.robot, bodies, names
         self._values, self._home, self._version = values, home, version
         self.assumptions: list[str] = []
-        movable = ("revolute", "continuous", "prismatic")
-        joints = [j for j in bodies.joints if j.type in movable and is_movable(j)]
+        joints = [j for j in bodies.joints if j.type in MOVABLE and is_movable(j)]
         written = {joint.name for joint in joints}
         self._followers = [
             joint for joint in joints if joint.mimic is not None and joint.mimic.joint in written

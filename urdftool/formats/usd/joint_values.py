@@ -11,6 +11,7 @@ from ...diagnostic import Severity
 from ...listing import quote_first
 from ...model.drives import GAINS, list_servo_joints
 from ...model.elements import Joint
+from ...model.kinematics import MOVABLE
 from ...model.mechanism import JointActuator
 from ...model.settings import MAGNITUDES, RESISTANCE, RESISTANCE_OF_URDF
 from ..common.actuator_config import JointSettings
@@ -42,8 +43,7 @@ class JointValues:
 
 def list_single_joints(bodies: Bodies) -> list[Joint]:
     """List the joints that move with one degree of freedom."""
-    kinds = ("revolute", "continuous", "prismatic")
-    return [j for j in bodies.joints if j.type in kinds and bodies.is_movable(j)]
+    return [j for j in bodies.joints if j.type in MOVABLE and bodies.is_movable(j)]
 
 
 def read_joint_settings(bodies: Bodies, config: Path | None) -> dict[str, JointSettings]:

@@ -10,7 +10,7 @@ from pxr import Gf, Sdf, Usd, UsdPhysics
 
 from ...diagnostic import Severity
 from ...model.elements import BALL_TYPES, Joint, Vector
-from ...model.kinematics import get_limits
+from ...model.kinematics import MOVABLE, get_limits
 from ...model.numbers import remove_noise
 from ...model.pose import (
     IDENTITY,
@@ -105,7 +105,7 @@ class JointWriter:
             usd.CreateBody0Rel().SetTargets([parent])
         usd.CreateBody1Rel().SetTargets([self.get_body_path(joint.child)])
         _set_frames(usd, self.bodies.compute_parent_frame(joint) @ turn, turn)
-        if joint.type in ("revolute", "continuous", "prismatic") and self.bodies.is_movable(joint):
+        if joint.type in MOVABLE and self.bodies.is_movable(joint):
             self._write_limits(prim, joint)
             self._write_dynamics(prim, joint)
 

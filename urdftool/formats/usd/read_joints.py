@@ -11,6 +11,7 @@ from pxr import Usd, UsdPhysics
 from ...diagnostic import Severity
 from ...model.drives import GAINS
 from ...model.elements import Dynamics, Joint, Limit, Mimic, Vector
+from ...model.kinematics import MOVABLE
 from ...model.mechanism import JointActuator
 from ...model.settings import RESISTANCE
 from .read_stage import ROUNDING, Context, convert_float, get_targets, has_schema
@@ -141,7 +142,7 @@ def find_units(context: Context, kind: JointKind) -> Units:
 
 def add_motion(context: Context, prim: Usd.Prim, joint: Joint, freedom: str) -> None:
     """Add limits, dynamics, mimic and drive of a joint with one position."""
-    if joint.type not in ("revolute", "continuous", "prismatic"):
+    if joint.type not in MOVABLE:
         return
     units = find_units(context, JointKind(joint.type, freedom=freedom))
     lower, upper = _read_bounds(context, prim, freedom)
@@ -272,7 +273,7 @@ def read_actuator(
     context: Context, prim: Usd.Prim, joint: Joint, freedom: str
 ) -> JointActuator | None:
     """Return the drive of a joint as an actuator; None without one, or if its gains are zero."""
-    if joint.type not in ("revolute", "continuous", "prismatic"):
+    if joint.type not in MOVABLE:
         return None
     units = find_units(context, JointKind(joint.type, freedom=freedom))
     if not has_drive(prim, units.name):

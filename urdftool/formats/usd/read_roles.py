@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pxr import Usd
 
 from ...model.drives import GAINS
+from ...model.kinematics import MOVABLE
 from ...model.settings import RESISTANCE, Setting
 from .read_joints import JointKind, Units, find_units, has_drive
 from .read_links import find_contradicting_inertia
@@ -106,7 +107,7 @@ def list_joint_roles(context: Context, prim: Usd.Prim, kind: JointKind) -> Roles
         prim: The joint.
         kind: How it is read; what is held of a joint with several freedoms is its frame.
     """
-    if kind.type not in ("revolute", "continuous", "prismatic"):
+    if kind.type not in MOVABLE:
         return Roles(re.compile(_JOINT))
     units = find_units(context, kind)
     held = f"{_JOINT}|limit:{kind.freedom or '-'}:physics:(low|high)"

@@ -12,7 +12,7 @@ from pxr import Usd
 from ...diagnostic import Severity
 from ...lint.validate import validate
 from ...model.elements import Joint, Limit, Robot
-from ...model.kinematics import follow_mimic_chain
+from ...model.kinematics import MOVABLE, follow_mimic_chain
 from ...model.mechanism import Base, Configuration, ContactExclusion, JointActuator
 from ...model.part import Part
 from ...model.settings import SPRING, Setting
@@ -196,13 +196,10 @@ def _name(prim: Usd.Prim, kind: str, name: str) -> None:
         set_value(prim, "isaac:nameOverride", "string", name)
 
 
-_MOVABLE = ("revolute", "continuous", "prismatic")
-
-
 def write_mimics(writer: JointWriter) -> None:
     """Write each ``<mimic>`` whose follower and leader move; report the others."""
     bodies = writer.bodies
-    movable = {j.name: j for j in bodies.joints if j.type in _MOVABLE and bodies.is_movable(j)}
+    movable = {j.name: j for j in bodies.joints if j.type in MOVABLE and bodies.is_movable(j)}
     for joint in bodies.robot.joints:
         if joint.mimic is None:
             continue

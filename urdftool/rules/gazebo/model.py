@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from ...model.elements import Joint, Link, Robot
+from ...model.kinematics import MOVABLE
 from ...model.settings import is_set
 from ...source.description import Description
 from ...source.document import parse, parse_once
@@ -156,9 +157,7 @@ def missing_control_plugin(
     joints = [
         joint
         for joint in robot.moving_joints
-        if joint.mimic is None
-        and joint.type in ("revolute", "prismatic", "continuous")
-        and not is_locked(joint)
+        if joint.mimic is None and joint.type in MOVABLE and not is_locked(joint)
     ]
     if not joints:
         return

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import re
 
-from ...mechanics.tensor import COMPONENTS, SymmetricTensor, rotate_tensor
+from ...mechanics.tensor import SymmetricTensor, rotate_tensor
 from ...mechanics.typo_detection import is_consistent
 from ...model.elements import Inertia, Inertial, Link, Vector
+from ...model.link import COMPONENTS
 from ...model.pose import make_pose, transpose
 from ..fix import (
     Change,

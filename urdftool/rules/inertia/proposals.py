@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ...mechanics.tensor import COMPONENTS, SymmetricTensor
+from ...mechanics.tensor import SymmetricTensor
 from ...mechanics.typo_detection import Proposal, infer_intended_tensor
 from ...model.elements import Inertial, Link, Robot
+from ...model.link import COMPONENTS
 from ...model.pose import IDENTITY_ROTATION, make_pose, rotate, transpose
 from ..mesh.link_extents import get_extents
 from .solids import compute_box, compute_solid_tensor, describe_solid, get_solid_kind

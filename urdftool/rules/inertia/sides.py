@@ -7,14 +7,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ...mechanics.spatial_inertia import SpatialInertia, combine_links
-from ...mechanics.tensor import (
-    COMPONENTS,
-    SymmetricTensor,
-    compute_principal_moments,
-    rotate_tensor,
-)
+from ...mechanics.tensor import SymmetricTensor, compute_principal_moments, rotate_tensor
 from ...model.attached import find_attached_links
 from ...model.elements import Link, Robot, Vector
+from ...model.link import COMPONENTS
 from ...model.part import Part
 from ...model.pose import compute_norm, rotate, transpose
 from ..fix import FixContext, Proposal, set_attribute, unsafe

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from decimal import Decimal, InvalidOperation
 
 from ...mechanics.tensor import (
-    COMPONENTS,
     ROUNDING,
     SymmetricTensor,
     compute_principal_moments,
@@ -15,6 +14,7 @@ from ...mechanics.tensor import (
     measure_consistency,
 )
 from ...model.elements import Inertia, Inertial, Link, Robot
+from ...model.link import COMPONENTS
 from ...model.read import number
 from .bodies import compute_body_inertia, find_rigid_bodies
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ...diagnostic import Severity
 from ...model.actuation import find_actuated_joints, find_measured_joints, is_passive
 from ...model.elements import Joint, Limit, Robot
+from ...model.kinematics import MOVABLE
 from ...model.read import number
 from ...model.settings import MAGNITUDES, RESISTANCE_OF_URDF
 from ..fix import FixContext, Proposal, remove_element, remove_sign, replace_element, safe, unsafe
@@ -116,7 +117,7 @@ def zero_velocity_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Probl
 def _iterate_driven(robot: Robot) -> Iterator[tuple[Joint, Limit]]:
     for joint in robot.joints:
         if joint.limit is not None and joint.mimic is None:
-            if joint.type in ("revolute", "continuous", "prismatic"):
+            if joint.type in MOVABLE:
                 yield joint, joint.limit
 
 
@@ -435,7 +436,7 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
     free = [
         joint
         for joint in robot.joints
-        if joint.type in _MOVING
+        if joint.type in MOVABLE
         and not is_locked(joint)
         and _is_undamped(joint)
         and not _is_wheel_joint(robot, joint)
@@ -450,9 +451,6 @@ def missing_dynamics(robot: Robot) -> Iterator[Problem]:
             'write <dynamics damping="…" friction="…"/>',
             data={"joints": [joint.name for joint in free]},
         )
-
-
-_MOVING = ("revolute", "continuous", "prismatic")
 
 
 def _is_wheel_joint(robot: Robot, joint: Joint) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from ...model.angles import format_angles
 from ...model.elements import Joint, Limit, Link, Robot
+from ...model.kinematics import MOVABLE
 from ...model.numbers import format_numbers_text, number_text
 from ...model.references import has_block
 from ..cross_file_references import check_alone
@@ -454,7 +455,7 @@ def _is_frame_joint(robot: Robot, joint: Joint) -> bool:
         return False  # the robot has only frames
     while joint.child in robot.link and not _is_body(robot.link[joint.child]):
         above = robot.tree.get_parent_joint(joint.parent)
-        if above is None or above.type not in ("prismatic", "revolute", "continuous"):
+        if above is None or above.type not in MOVABLE:
             return True
         joint = above
     return False

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from ...model.link import COMPONENTS
 from ...source.document import Element
 from ..xml.numbers import has_readable_numbers
 from .mesh_uses import MeshUse
 
 _SHAPES = ("box", "sphere", "cylinder", "mesh")
-_SIX = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 def is_dropped(use: MeshUse) -> bool:
@@ -31,7 +31,7 @@ def _reads_inertial(link: Element) -> bool:
     mass, inertia = inertial.find_child("mass"), inertial.find_child("inertia")
     if mass is None or inertia is None or not {"value"} <= mass.attributes.keys():
         return False
-    if not inertia.attributes.keys() >= set(_SIX):
+    if not inertia.attributes.keys() >= set(COMPONENTS):
         return False
     return all(map(has_readable_numbers, (*inertial.list_children("origin"), mass, inertia)))
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ...listing import quote_first
 from ...model.elements import Joint, Link, Robot
+from ...model.joint import JOINT_TYPES
 from ..rule import ANY_FORMAT, ERROR, Problem, rule
 from ..unexpanded import is_unexpanded
 from ..words import quote
@@ -67,15 +68,12 @@ def _describe_roots(main: Link, others: list[Link]) -> str:
     return f"{message} with joints"
 
 
-_STANDARD = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
-
-
 def _find_drake_roots(robot: Robot) -> set[str]:
     """Find the roots that a ``<drake:joint>`` connects to another link."""
     roots = {link.name for link in robot.tree.roots}
     found = set()
     for joint in () if robot.xml is None else robot.xml.list_children("drake:joint"):
-        if joint.get("type") in _STANDARD:
+        if joint.get("type") in JOINT_TYPES:
             continue  # Drake rejects it
         parent, child = joint.find_child("parent"), joint.find_child("child")
         if parent is not None and child is not None and parent.get("link") in robot.link:

@@ -4,22 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...model.urdf_schema import VOCABULARY
 from ...source.description import Description
 from ...source.document import Document, Element
 from ..fix import FixContext, Proposal, rename_element, safe, set_attribute, unsafe
 from ..rule import ERROR, INFO, SAFE, UNSAFE, Problem, rule
-from ..words import split_words
 from .definitions import get_macro_names
 
 XMLNS = "http://www.ros.org/wiki/xacro"
 
 _TAGS = frozenset(("include", "macro", "property", "if", "unless", "insert_block", "arg"))
 _DIALECT_TAGS = frozenset(("gazebo", "ros2_control", "mujoco", "transmission", "plugin", "sensor"))
-_URDF = split_words(
-    "robot link joint material inertial visual collision origin mass inertia geometry box cylinder "
-    "sphere capsule mesh color texture parent child axis limit dynamics mimic safety_controller "
-    "calibration"
-)
+_URDF = VOCABULARY.keys()
 
 
 @rule(

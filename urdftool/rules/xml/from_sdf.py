@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...model.link import COMPONENTS
 from ...model.read import number, parse_numbers
 from ...model.settings import LIMIT_NAMES, RESISTANCE_OF_URDF
 from ...model.urdf_schema import VOCABULARY
@@ -29,7 +30,7 @@ _AS_ATTRIBUTE = {
     "mesh": {"uri": "filename", "scale": "scale"},
     "axis": {"xyz": "xyz"},
     "limit": {name: name for name in LIMIT_NAMES},
-    "inertia": {name: name for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")},
+    "inertia": {name: name for name in COMPONENTS},
 }
 
 """Child elements of SDF that are attributes in URDF, by parent element."""

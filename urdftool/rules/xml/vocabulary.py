@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ...diagnostic import Severity
 from ...model.elements import Joint, Robot
+from ...model.joint import JOINT_TYPES
 from ...model.read import number, parse_numbers
 from ...model.settings import RESISTANCE_OF_URDF
 from ...model.urdf_schema import BLOCKS, DIALECT_ATTRIBUTES, VOCABULARY
@@ -409,15 +410,12 @@ def wrong_case_keyword(robot: Robot) -> Iterator[Problem]:
                     what = f"{_describe(element)} has the unknown attribute '{name}'; write {lower}"
                     yield Problem(element, what, at=element.locate_attribute(name))
     for joint in robot.joints:
-        if joint.type != joint.type.lower() and joint.type.lower() in _TYPES:
+        if joint.type != joint.type.lower() and joint.type.lower() in JOINT_TYPES:
             yield Problem(
                 joint,
                 f"joint '{joint.name}' has type '{joint.type}'; write {joint.type.lower()}",
                 at=joint.locate_attribute("type"),
             )
-
-
-_TYPES = frozenset(("revolute", "continuous", "prismatic", "fixed", "floating", "planar"))
 
 
 def _format_count(elements: list[Element]) -> str:

@@ -13,6 +13,7 @@ from ....compare.rows import ROWS as ROWS_OF_ROBOTS
 from ....compare.rows import narrow_tolerances
 from ....errors import UrdftoolError
 from ....model.elements import Joint, Limit, Robot
+from ....model.kinematics import MOVABLE
 from ....model.load import read_again
 from ....model.mechanism import MountedSensor, NativeElement
 from ....model.native import AROUND
@@ -51,8 +52,6 @@ COMPARED_AS_ELEMENTS = tuple(
     )
 )
 """Codes of what the reader does not hold as values; the row of other elements compares it."""
-
-MOVABLE = ("revolute", "prismatic", "continuous")
 
 
 def verify(robot: Robot, written: Written, options: Options, output: str | Path) -> list[Check]:
