@@ -133,9 +133,9 @@ def test_servos_of_a_carried_chain_are_stable_at_longer_steps(seed, size, step):
 def test_damping_is_that_of_the_inertia_that_bounds_the_gain():
     carried = choose_position_gain("hinge", 1e9, JointLoad(0.5, 0.5, is_carried=True, free=0.1))
     assert carried.kd == pytest.approx(2 * np.sqrt(carried.value * 0.5), rel=6e-3)
-    assert choose_position_gain("hinge", 1e9, JointLoad(0.5, 0.1)).damping is None
+    assert choose_position_gain("hinge", 1e9, JointLoad(0.5, 0.1)).kd is None
     mild = JointLoad(0.5, 0.5, is_carried=True, free=0.25)
-    assert choose_position_gain("hinge", 1e9, mild).damping is None
+    assert choose_position_gain("hinge", 1e9, mild).kd is None
 
 
 def test_the_load_at_home_is_that_of_statics(write):
