@@ -113,7 +113,7 @@ def choose_position_gain(
     kd = _round(2 * math.sqrt(value * load.inertia)) if is_stiff else None
     if effort and load.force > effort and not load.is_carried:  # by the ground
         return Gain(value, is_bounded, force, kd=kd, is_weak=True)
-    return Gain(value, is_bounded, force, load.force / value, damping, is_carried=load.is_carried)
+    return Gain(value, is_bounded, force, load.force / value, kd, is_carried=load.is_carried)
 
 
 def compute_kd(gain: Gain, load: JointLoad, timestep: float = TIMESTEP) -> float:
