@@ -12,14 +12,7 @@ from ...model.kinematics import MOVABLE
 from ...model.numbers import format_numbers_text, number_text
 from ...model.references import has_block
 from ..cross_file_references import check_alone
-from ..fix import (
-    FixContext,
-    Proposal,
-    find_attribute,
-    remove_attribute,
-    set_attribute,
-    unsafe,
-)
+from ..fix import FixContext, Proposal, find_attribute, remove_attribute, set_attribute, unsafe
 from ..mesh.link_extents import get_extents
 from ..renaming import list_names_in_blocks
 from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
