@@ -166,6 +166,10 @@ def _compute_norm(six: SymmetricTensor) -> float:
     return math.sqrt(xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz))
 
 
+_ALONG_AXES = 1e-3
+"""Products of inertia, relative to the largest moment, of a body along the axes. Chosen, no source.
+"""
+
 _EXCHANGES = {
     "x and y": (3, 1, 4, 0, 2, 5),
     "x and z": (5, 4, 2, 3, 1, 0),
@@ -181,8 +185,11 @@ def find_exchange(tensor: SymmetricTensor, judge: Callable[..., object]) -> str:
     written about its own z.
 
     Returns:
-        The axes, such as ``x and z``; empty if no exchange fits, or several do.
+        The axes, such as ``x and z``; empty if no exchange fits, or several do, or the tensor is
+        not that of a body along the axes.
     """
+    if max(abs(tensor[i]) for i in (1, 2, 4)) > _ALONG_AXES * max(map(abs, tensor)):
+        return ""
     fitting = [
         axes
         for axes, (a, b, c, d, e, f) in _EXCHANGES.items()
