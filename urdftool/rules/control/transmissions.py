@@ -234,7 +234,12 @@ _KNOWN = (
 )
 
 
-@rule(ERROR, on=("ros1",), effects={"gazebo_ros_control": "fails to start: no joint is controlled"})
+@rule(
+    ERROR,
+    on=("ros1",),
+    effects={"gazebo_ros_control": "fails to start: no joint is controlled"},
+    group="robot",
+)
 def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
     """A hardware interface is unknown.
 
@@ -256,6 +261,7 @@ def unknown_hardware_interface(robot: Robot) -> Iterator[Problem]:
                     + (near or "; write, for example, hardware_interface/EffortJointInterface"),
                     at=child,
                     data={"suggestion": find_nearest(name, _KNOWN, 0.6)},
+                    alike=name,
                 )
 
 
