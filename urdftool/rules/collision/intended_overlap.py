@@ -136,12 +136,3 @@ def find_disabled_pairs(robot: Robot, description: Description) -> set[frozenset
         return {pair.links for content in contents for pair in content.list_disabled(robot.link)}
 
     return robot.memo.get("disabled pairs of the SRDF", read)
-
-
-def are_fingers(joints: Sequence[Joint]) -> bool:
-    """Tell whether joints between two links are all those of fingers, which touch when closed."""
-    from ..gazebo.contact import GRIPPER_PART
-
-    return bool(joints) and all(
-        GRIPPER_PART.search(joint.name) or GRIPPER_PART.search(joint.child) for joint in joints
-    )

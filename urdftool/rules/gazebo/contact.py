@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from ...model.attached import find_attached_links
 from ...model.elements import Collision, Cylinder, Joint, Link, Robot, Sphere
@@ -67,6 +68,13 @@ def _is_gripping(robot: Robot, link: Link) -> bool:
             if not below.is_fixed and _GRIPS.search(f"{below.name} {below.child}"):
                 return True
     return False
+
+
+def are_fingers(joints: Sequence[Joint]) -> bool:
+    """Tell whether joints are all those of fingers."""
+    return bool(joints) and all(
+        GRIPPER_PART.search(joint.name) or GRIPPER_PART.search(joint.child) for joint in joints
+    )
 
 
 def is_wheel(robot: Robot, link: Link) -> bool:

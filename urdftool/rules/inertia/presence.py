@@ -17,7 +17,7 @@ from ..fix import (
     remove_element,
     unsafe,
 )
-from ..gazebo.contact import GRIPPER_PART
+from ..gazebo.contact import are_fingers
 from ..gazebo.lumped_model import find_kept_links
 from ..rule import (
     ANY_FORMAT,
@@ -348,7 +348,8 @@ def massless_root_body(robot: Robot) -> Iterator[Problem]:
             continue
         if joint is not None and not joint.is_fixed:
             continue
-        if not is_bare(links) or not _has_moving_joint(robot, links):
+        below = [joint for one in links for joint in robot.tree.get_child_joints(one.name)]
+        if not is_bare(links) or all(joint.is_fixed for joint in below):
             continue
         yield _report_root(links[0])
 
@@ -367,12 +368,6 @@ def _report_root(root: Link) -> Problem:
         root,
         f"root link '{root.name}' and all links fixed to it have no mass; add an <inertial>, or "
         "name the root 'world' if the robot has a fixed base",
-    )
-
-
-def _has_moving_joint(robot: Robot, links: list[Link]) -> bool:
-    return any(
-        not joint.is_fixed for link in links for joint in robot.tree.get_child_joints(link.name)
     )
 
 
@@ -414,7 +409,7 @@ def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
     root = robot.tree.root
     if root is None or len(robot.tree.roots) > 1 or _is_broken(robot):
         return  # fixing these may change the root
-    if is_arm(robot) or _is_gripper(robot) or is_floating_base(robot):
+    if is_arm(robot) or are_fingers(robot.moving_joints) or is_floating_base(robot):
         return
     if root.inertial is not None and root.inertial.mass != 0.0:
         remedy, hint = "; add a root link without one above it, on a fixed joint", _IN_PYBULLET
@@ -430,12 +425,6 @@ def root_link_has_inertia(robot: Robot, targets: frozenset[str]) -> Iterator[Pro
             hint=hint,
             pedantic=not robot.moving_joints,
         )
-
-
-def _is_gripper(robot: Robot) -> bool:
-    """Tell whether each moving joint is that of a finger."""
-    links = [(joint.name, joint.child) for joint in robot.moving_joints]
-    return bool(links) and all(any(map(GRIPPER_PART.search, names)) for names in links)
 
 
 _IN_PYBULLET = (

@@ -11,8 +11,9 @@ from ...source.description import Description
 from ...source.document import Element
 from ..collision.convex_bodies import get_convex_bodies
 from ..collision.exact_contact import find_contact
-from ..collision.intended_overlap import are_fingers, is_telescope, list_joints_between
+from ..collision.intended_overlap import is_telescope, list_joints_between
 from ..fix import FixContext, Proposal, remove_element, unsafe
+from ..gazebo.contact import are_fingers
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from ..words import join_some
 from .semantic import get_srdf_documents
