@@ -20,7 +20,7 @@ PER = ("link", "mesh")
 MESH_FORMATS = ("stl", "obj")
 
 COVERING = 12
-"""Number of spheres that cover a link, without another number: the most in cuRobo's own files."""
+"""Number of spheres that cover a link by default. Source: the most in cuRobo's own files."""
 
 METHODS = ("auto", "primitive", "hull", "cuts", "coacd", "spheres", "simplify")
 
