@@ -542,7 +542,7 @@ def test_several_processes_use_one_folder(write):
     some = [subprocess.Popen(words, stdout=subprocess.PIPE, text=True) for _ in range(3)]
     said = [process.communicate()[0] for process in some]
     assert [process.returncode for process in some] == [1, 1, 1]
-    assert said[0].count("[missing-name]") == 30
+    assert "(and in 29 more files) [missing-name]" in said[0].replace("\n     ", " ")
     assert said[1:] == said[:1] * 2
     kept = [json.loads(DiskCache("kept").get(entry.name)) for entry in entries("kept")]
     assert sum("report" in table for table in kept) == 30
