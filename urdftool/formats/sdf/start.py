@@ -24,11 +24,12 @@ from .options import Options
 from .xml import Node
 
 
-def report_start(robot: Robot, options: Options, written: Written) -> float:
+def report_start(robot: Robot, boxes: ShapeBoxes, options: Options, written: Written) -> float:
     """Report where a model starts, and return the height of its root above the ground [m].
 
-    Gazebo starts joints at zero, or at the limit nearest to it. The height is that of exports to
-    MJCF and USD; a base that is fixed, or that the description places, has none.
+    Gazebo starts joints at zero, or at the limit nearest to it. The height follows from the boxes
+    of the robot's shapes, and is that of exports to MJCF and USD; a base that is fixed, or that the
+    description places, has none.
     """
     if options.overlaps is None:
         return 0.0
@@ -38,7 +39,6 @@ def report_start(robot: Robot, options: Options, written: Written) -> float:
     if len(roots) != 1 or roots[0].name == WORLD or find_model_origin(robot) is not None:
         return 0.0
     tree = group_rigid_links(robot, lambda joint: not joint.is_fixed)
-    boxes = ShapeBoxes(robot)
     height = lift_to_floor(tree, boxes, positions, IDENTITY).translation[2]
     if height:
         home = _list_home(tree, boxes, positions)

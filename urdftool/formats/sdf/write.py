@@ -68,7 +68,8 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     if any(finding.code in FATAL | STRUCTURAL for finding in found):
         refuse(found, force=options.force, fatal=FATAL)
     decided = Written(options.file or MODEL)
-    robot = apply_base(robot, options.base, decided)
+    boxes = ShapeBoxes(robot)
+    robot = apply_base(robot, boxes, options.base, decided)
     plan = make_plan(robot, lump=options.lump)
     if options.fix_inertia == "none":
         found += report_inertia_defects(robot, plan)
@@ -84,7 +85,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     node = add_model(root, t)
     _report_names(t)
     report_passed_defects(written, found)
-    height = report_start(robot, options, written)
+    height = report_start(robot, boxes, options, written)
     _add_files(t, root, node, height)
     return written
 
@@ -188,17 +189,17 @@ def _compute_own_shortfall(link: Link) -> float:
     return get_excess(body.tensor, body.mass)
 
 
-def apply_base(robot: Robot, base: ChosenBase, written: Written) -> Robot:
+def apply_base(robot: Robot, boxes: ShapeBoxes, base: ChosenBase, written: Written) -> Robot:
     """Return the robot with a joint to the world if its base is fixed by ``base``.
 
-    ``auto`` decides as exports to MJCF and USD do.
+    ``auto`` decides as exports to MJCF and USD do, from the boxes of the robot's shapes.
     """
     roots = robot.tree.roots
     if base == "" or base == "free" or len(roots) != 1 or roots[0].name == WORLD:
         return robot
     tree = group_rigid_links(robot, lambda joint: not joint.is_fixed)
     home, _ = start_positions(robot)
-    is_free, reason = decide_base(tree, base, None, ShapeBoxes(robot), home, written)
+    is_free, reason = decide_base(tree, base, None, boxes, home, written)
     if is_free:
         return robot
     written.report_loss(
