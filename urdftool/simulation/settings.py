@@ -8,13 +8,11 @@ from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING
 
 from ..arguments import require_kind
+from ..mechanics.standing import NUDGE_TOWARD, get_nudge_side
 from ..suggestions import require_number, require_word
 
 if TYPE_CHECKING:
     from .control import Control
-
-NUDGE = 0.1
-"""Duration of the tilted gravity to each side at the start [s]. Chosen, no source."""
 
 HOLDS = ("all", "actuated", "none")
 """Words of ``hold``."""
@@ -31,9 +29,6 @@ RANGES = {
     "time_limit": (0.1, 86400.0),
 }
 """Least and greatest value of each number [s, rad, m/s², –], as on the command line."""
-
-_TOWARD = 0.6
-"""Rad from x; not an axis of symmetry of common robots. Chosen, no source."""
 
 
 @dataclass(frozen=True)
@@ -105,10 +100,8 @@ class Settings:
 
     def compute_gravity_at(self, time: float) -> tuple[float, float, float]:
         """Compute gravity [m/s²] at a time [s], in the frame in which the plane is level."""
-        lean = 0.0
-        if self.nudge and time < 2 * NUDGE:
-            lean = self.nudge if time < NUDGE else -self.nudge
-        angle = self.slope + lean * math.cos(_TOWARD)
-        side = lean * math.sin(_TOWARD)
+        lean = self.nudge * get_nudge_side(time)
+        angle = self.slope + lean * math.cos(NUDGE_TOWARD)
+        side = lean * math.sin(NUDGE_TOWARD)
         x, y = math.sin(angle), math.cos(angle) * math.sin(side)
         return self.gravity * x, self.gravity * y, -self.gravity * math.cos(angle) * math.cos(side)

@@ -8,6 +8,8 @@ at the start. The sources are:
   PyBullet);
 - *chosen*: no derivation; the verdicts in ``docs/measurements/simulate-robots.md``, on robots of
   two collections and on planted defects, use this value.
+
+Defaults of what a robot that stands does are those of the row ``runs``, in ``mechanics.standing``.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from ...errors import ConfigError
+from ...mechanics.standing import FALLEN, LEAN, SAG_SLIDE, SAG_TURN, SLIDE
 from ...suggestions import suggest_name
 from ..old_names import RENAMED_THRESHOLDS
 from ..rigid_bodies import TENSOR_ROUNDING
@@ -61,13 +64,13 @@ class Thresholds:
     energy_gain: float = 0.5
     """Energy increase of a run that diverged, over the energy that lifts the robot by its size [1].
     Source: chosen; motors that hold a pose add little energy."""
-    tip_tilt: float = math.radians(30)
+    tip_tilt: float = math.radians(FALLEN)
     """Tilt of the root's z axis above which the robot tipped over [rad]. Source: chosen."""
-    lean_tilt: float = math.radians(10)
+    lean_tilt: float = math.radians(LEAN)
     """Tilt of the root's z axis that is reported [rad]. Source: chosen."""
     slide_distance: float = 0.05
     """Motion of the root along the plane that is reported [size]. Source: chosen."""
-    slide_failure: float = 0.5
+    slide_failure: float = SLIDE
     """Motion of the root that is an error on a level plane [size]. Source: chosen."""
     wheel_turn: float = 0.05
     """Rotation of a wheel that rolled [rad]. Source: chosen."""
@@ -196,10 +199,10 @@ class Thresholds:
 
     # --- joints -----------------------------------------------------------------------------------
 
-    joint_drift_turn: float = 0.05
+    joint_drift_turn: float = SAG_TURN
     """Distance of a held revolute joint from its target that is reported [rad]. Source: chosen; 50
     mm at 1 m."""
-    joint_drift_slide: float = 0.05
+    joint_drift_slide: float = SAG_SLIDE
     """Distance of a held prismatic joint from its target that is reported [size]. Source:
     chosen."""
     limit_turn: float = 0.02
