@@ -159,8 +159,9 @@ def add_joint(context: Context, found: Found) -> None:
         robot.joints.append(joint)
     if found.type == "gearbox":
         context.record_loss("gearbox", "ratios of gearboxes are not read", found.element)
+    frame = get_link_pose(context, found.child).invert() @ found.pose  # of the joint, in the child
     for sensor in found.element.list_children("sensor"):
-        pose, place = read_pose(sensor)[0], Written(sensor.place, sensor)
+        pose, place = frame @ read_pose(sensor)[0], Written(sensor.place, sensor)
         add_parts(robot, read_sensor(sensor, pose, joint=found.name, provenance=place))
 
 

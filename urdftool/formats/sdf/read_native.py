@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Mapping
 
 from ...diagnostic import Severity
 from ...model.mechanism import NativeElement
 from ...model.native import HELD_PATHS, NESTED, OTHER_TAGS, make_loop, make_native, make_rest
+from ...model.pose import Pose, make_pose
 from ...model.provenance import Written
 from ...model.settings import OF_LINKS, OF_ROBOT
 from ...model.shapes import collect_content
@@ -64,8 +65,13 @@ def _list_copied(context: Context, scope: Scope, prefix: str) -> Iterator[Native
     for item in scope.links.values():
         yield from _list_of_link(context, scope, prefix, item.element)
     loops = {closure.name for closure in context.robot.closures}
+    poses = {
+        (sensor.joint, sensor.name): make_pose(sensor.origin)
+        for sensor in context.robot.mounted_sensors
+        if sensor.joint
+    }
     for item in scope.joints.values():
-        yield from _list_of_joint(prefix + item.name, item.element, loops)
+        yield from _list_of_joint(prefix + item.name, item.element, loops, poses)
     for child in scope.element.children:
         if not prefix and (child.tag in _OF_MODEL or _is_unknown("model", child)):
             yield _mark(make_native("model", child))
@@ -93,7 +99,10 @@ def _list_of_link(
             yield _mark(make_native(section, child, pose))
 
 
-def _list_of_joint(name: str, joint: Element, loops: Container[str]) -> Iterator[NativeElement]:
+def _list_of_joint(
+    name: str, joint: Element, loops: Container[str], poses: Mapping[tuple[str, str], Pose]
+) -> Iterator[NativeElement]:
+    """Yield the elements of a joint; sensors at their ``poses`` in its child, by joint and name."""
     if name in loops:
         yield make_loop(joint, name)
     else:
@@ -102,7 +111,8 @@ def _list_of_joint(name: str, joint: Element, loops: Container[str]) -> Iterator
             yield rest
     for child in joint.children:
         if child.tag in _IN_ROWS:
-            yield _mark(make_native(f"joint {name}", child))
+            pose = poses.get((name, child.get("name") or "")) if child.tag == "sensor" else None
+            yield _mark(make_native(f"joint {name}", child, pose))
 
 
 def _mark(made: NativeElement) -> NativeElement:
