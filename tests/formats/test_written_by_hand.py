@@ -79,7 +79,7 @@ NUMBER = re.compile(r"(?<![\w.:-])-?\d+(?:\.\d+)?(?:e-?\d+)?(?![\w.:])")
 
 CONVENTIONS = {
     "urdf": ("version",),
-    "sdf": ("<sdf version",),
+    "sdf": ("<sdf version", "base_fixed", "__model__"),
     "mjcf": (
         "<geom contype",
         "<geom group",

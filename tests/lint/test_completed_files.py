@@ -4,6 +4,8 @@ import json
 
 import pytest
 
+pytestmark = pytest.mark.library("mujoco")
+
 MODEL = """<mujoco><asset><mesh name="m" file="{mesh}"/></asset><worldbody><body>
 <geom type="mesh" mesh="m"/></body></worldbody></mujoco>
 """

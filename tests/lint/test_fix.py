@@ -295,7 +295,8 @@ def test_a_fix_that_makes_things_worse_is_taken_back_and_said(write, urdftool, m
 
     monkeypatch.setattr(get_rule("axis-not-unit"), "make_fix", wrong)
     path = write("r.urdf", LONG)
-    result = urdftool("lint", path, "--fix", "--no-cache")
+    also = ("--extend-select", "axis-not-unit", "--no-cache")
+    result = urdftool("lint", path, "--fix", *also)
     assert Path(path).read_text() == LONG
     assert (
         "the fix of axis-not-unit was not applied, because it would introduce a defect"
@@ -309,7 +310,8 @@ def test_a_fix_that_breaks_is_a_bug_of_ours(write, urdftool, monkeypatch):
 
     monkeypatch.setattr(get_rule("axis-not-unit"), "make_fix", broken)
     path = write("r.urdf", ROBOT.format(axis="0 0 2", dynamics="\n    <dynamics/>"))
-    result = urdftool("lint", path, "--fix", "--no-cache")
+    only = ("--select", "axis-not-unit,empty-dynamics", "--no-cache")
+    result = urdftool("lint", path, "--fix", *only)
     assert result.code == 3
     assert "axis-not-unit" in result.err
     assert "Traceback" not in result.err
@@ -319,7 +321,8 @@ def test_a_fix_that_breaks_is_a_bug_of_ours(write, urdftool, monkeypatch):
 def test_what_cannot_be_read_is_mended_until_it_can(write, urdftool):
     text = "<!-- a -- b -->\n" + LONG.replace("<link", "<!-- c -- d -->\n  <link", 1)
     path = write("r.urdf", text)
-    assert urdftool("lint", path, "--fix", "--unsafe-fixes", "--no-cache").code == 0
+    words = ("--fix", "--unsafe-fixes", "--no-cache", "--extend-select", "axis-not-unit")
+    assert urdftool("lint", path, *words).code == 0
     fixed = Path(path).read_text()
     assert fixed.startswith('<?xml version="1.0"?>\n<!-- a - - b -->\n<robot')
     assert '<axis xyz="0 0 1"/>' in fixed

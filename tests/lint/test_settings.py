@@ -4,7 +4,12 @@ from urdftool import check
 
 TWO = """<robot name="r">
   <link name="a"/>
-  <link name="b"/>
+  <link name="b">
+    <inertial>
+      <mass value="1"/>
+      <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>
+    </inertial>
+  </link>
   <joint name="j" type="continuous">
     <parent link="a"/>
     <child link="b"/>

@@ -30,7 +30,6 @@ from ..common.directory import write_export
 from ..common.losses import DeclaredLosses, name_links
 from ..step_read_back import check_read_back
 from ..written import Written
-from .contacts import SELF_COLLISION
 from .declared_losses import EXCUSES, UNSEEN
 from .read import read
 
@@ -137,7 +136,8 @@ def read_start(path: Path) -> dict[str, float]:
 def read_self_collision(path: Path) -> bool:
     """Tell whether a stage says that the links of its robot collide with each other."""
     stage = Usd.Stage.Open(str(path))
-    return any(prim.GetAttribute(SELF_COLLISION).Get() for prim in stage.Traverse())
+    name = "newton:selfCollisionEnabled"
+    return any(prim.GetAttribute(name).Get() for prim in stage.Traverse())
 
 
 def _list_joints(path: Path) -> Iterator[tuple[str, Usd.Prim]]:
