@@ -16,10 +16,11 @@ from ..rules.gazebo.lumped_model import find_kept_links, find_omitted_links, is_
 from ..rules.inertia.bodies import find_massless_pairs
 from ..rules.inertia.massless import has_bare_moved_body
 from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
-from ..rules.mesh.mesh_uses import get_mesh_uses
+from ..rules.mesh.mesh_uses import MeshUse, get_mesh_uses
 from ..rules.mujoco import find_rejected_by_mujoco, get_assumed_package
 from ..rules.package.resolution import is_in_own_package
 from ..rules.rule import GAZEBO
+from ..source.description import Description
 from ..source.document import Element
 
 _THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit", "check_urdf")
@@ -111,7 +112,7 @@ class Rejections:
             return
         for use in get_mesh_uses(robot, source):
             lost = bool(use.missing_package) and not is_in_own_package(use, source)
-            if lost or get_assumed_package(use, source):
+            if lost or get_assumed_package(use, source) or _is_without_manifest(use, source):
                 self._by_reader.setdefault("drake", set()).update(_OF_FILES)
                 self._without_shapes.add("pinocchio")
             if lost:
@@ -212,6 +213,18 @@ def has_undeclared_prefix(element: Element, declared: frozenset[str] = frozenset
     return False
 
 
+def _is_without_manifest(use: MeshUse, source: Description) -> bool:
+    """Tell whether the package of a mesh is a folder that is known by its name alone."""
+    scheme, _, rest = use.uri.partition("://")
+    name = rest.partition("/")[0]
+    if scheme != "package" or not use.exists or name in source.packages.named:
+        return False
+    known: dict[str, bool] = source.memo.get(_is_without_manifest, dict)
+    if name not in known:
+        known[name] = source.packages.find_by_manifest(name) is None
+    return known[name]
+
+
 def _has_flat_first_object(robot: Robot) -> bool:
     """Tell whether MuJoCo rejects a robot for a collision, an OBJ file of several objects.
 
@@ -240,4 +253,4 @@ def convert_to_singular(effect: str) -> str:
         verb = verb[:-1] + "ies"
     else:
         verb += "s"
-    return f"{verb}{colon}{space}{rest}"
+    return f"{verb}{colon}{space}{rest.replace(' and take ', ' and takes ')}"

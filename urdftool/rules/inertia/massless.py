@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.elements import MOVING_TYPES, Joint, Link, Robot
 from ..rule import GAZEBO, INFO, Problem
 from ..xml.vocabulary_table import find_misspelled_children
@@ -82,3 +83,32 @@ def is_bare(links: list[Link]) -> bool:
         if not link.is_frame or "inertial" in misspelled.values():
             return False
     return True
+
+
+_IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-classic (part)"}
+
+LUMPED = {"gz, gazebo-classic (part)", "pinocchio, KDL, drake"}
+"""Effects on a link that is fixed to one with a mass: the body keeps its mass."""
+
+
+def select_effects(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
+    """Select the effects on a link without mass; MuJoCo welds the root to the world.
+
+    Args:
+        robot: The robot.
+        link: Its link without an ``<inertial>``.
+        in_gazebo: Case of the effect in Gazebo; empty for the effect without a case.
+    """
+    body = [one for one, _ in find_attached_links(robot, link)]
+    tops = [robot.tree.get_parent_joint(one.name) for one in body]
+    keys = {"gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else "")} & _IN_GAZEBO
+    if is_fixed_to_world(robot, link):
+        return keys
+    keys |= {"pybullet", "pinocchio, KDL, drake"}
+    if None in tops:
+        return keys
+    if link.collisions:
+        keys.add("mujoco (collisions)")
+    elif not any(one.mass > 0 or (one.inertial is None and one.collisions) for one in body):
+        keys.add("mujoco (no mass)")
+    return keys

@@ -39,11 +39,13 @@ from .device_frames import is_light_marker, is_massless_scene, is_slight_frame
 from .light_body import find_light_body
 from .massless import (
     INERTIAL_HINT,
+    LUMPED,
     MASS_READERS,
     find_moved_bodies,
     is_bare,
     is_only_kinematic,
     report_massless,
+    select_effects,
 )
 from .optional_inertials import has_optional_inertials
 from .solids import DENSITY
@@ -57,10 +59,6 @@ _AS_PART = (
     "PyBullet gives {} 1 kg in addition to {} body's mass. Write a small <inertial> if PyBullet is "
     "to read the robot"
 )
-_IN_GAZEBO = {"gz, gazebo-classic", "gz, gazebo-classic (root)", "gz, gazebo-classic (part)"}
-
-_LUMPED = {"gz, gazebo-classic (part)", "pinocchio, KDL, drake"}
-"""Effects on a link that is fixed to one with a mass: the body keeps its mass."""
 
 
 @rule(
@@ -182,7 +180,7 @@ def missing_inertial(
             hint=INERTIAL_HINT if needs_mass else "",
             severity=severity,
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
-            effects=_select_effects(robot, link, case) - (_LUMPED if outcome == "part" else set()),
+            effects=select_effects(robot, link, case) - (LUMPED if outcome == "part" else set()),
             alike=outcome,
             pedantic=outcome == "static"
             or (severity is not ERROR and is_massless_scene(robot))
@@ -211,29 +209,6 @@ def _report_default_inertials(robot: Robot) -> Iterator[Problem]:
                 f"link '{link.name}' has no <inertial>{so}",
                 group=f"{{count}} links have no <inertial>{so}: {{names}}",
             )
-
-
-def _select_effects(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
-    """Select the effects on a link without mass; MuJoCo welds the root to the world.
-
-    Args:
-        robot: The robot.
-        link: Its link without an ``<inertial>``.
-        in_gazebo: Case of the effect in Gazebo; empty for the effect without a case.
-    """
-    body = [one for one, _ in find_attached_links(robot, link)]
-    tops = [robot.tree.get_parent_joint(one.name) for one in body]
-    keys = {"gz, gazebo-classic" + (f" ({in_gazebo})" if in_gazebo else "")} & _IN_GAZEBO
-    if is_fixed_to_world(robot, link):
-        return keys
-    keys |= {"pybullet", "pinocchio, KDL, drake"}
-    if None in tops:
-        return keys
-    if link.collisions:
-        keys.add("mujoco (collisions)")
-    elif not any(one.mass > 0 or (one.inertial is None and one.collisions) for one in body):
-        keys.add("mujoco (no mass)")
-    return keys
 
 
 _LIGHTEST = 1e-5
