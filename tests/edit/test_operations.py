@@ -17,6 +17,7 @@ from tests.edit.robots import (
     LIMITS,
     list_numbers,
 )
+from urdftool.compare.conventions import mirror_robot
 from urdftool.errors import ModelError
 
 
@@ -241,6 +242,19 @@ def test_mirror_exchanges_names(write):
     edited = urdftool.load(write("two.urdf", text)).mirror(exchange=("l_", "r_"))
     assert edited.is_proved
     assert {"r_upper", "l_tool"} <= set(edited.robot.link)
+
+
+def test_mirror_mirrors_the_poses_of_sensors(write):
+    sensor = '<sensor name="eye" type="camera"><pose>.1 .2 .3 .1 .2 .3</pose></sensor>'
+    text = ARM.replace("</robot>", f'<gazebo reference="upper">{sensor}</gazebo></robot>')
+    edited = urdftool.load(write("arm.urdf", text)).mirror("xz")
+    assert edited.is_proved
+    (camera,) = edited.robot.cameras or edited.robot.mounted_sensors
+    assert camera.origin.xyz == (0.1, -0.2, 0.3)
+    assert camera.origin.rpy == pytest.approx((-0.1, 0.2, -0.3))
+    robot = urdftool.load("arm.urdf")
+    (image,) = mirror_robot(robot, "xz").cameras or mirror_robot(robot, "xz").mounted_sensors
+    assert image.origin.xyz == (0.1, -0.2, 0.3)
 
 
 TETRAHEDRON = """v 0 0 0

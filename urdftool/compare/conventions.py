@@ -209,7 +209,9 @@ def mirror_robot(robot: Robot, plane: str) -> Robot:
     flip[index, index] = -1.0
     links = [mirror_link(link, flip, index) for link in robot.links]
     joints = [mirror_joint(joint, flip) for joint in robot.joints]
-    return replace(robot, links=links, joints=joints)
+    sensors = [replace(s, origin=_mirror_origin(s.origin, flip)) for s in robot.mounted_sensors]
+    cameras = [replace(c, origin=_mirror_origin(c.origin, flip)) for c in robot.cameras]
+    return replace(robot, links=links, joints=joints, mounted_sensors=sensors, cameras=cameras)
 
 
 T = TypeVar("T")

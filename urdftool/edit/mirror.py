@@ -60,7 +60,7 @@ def mirror_robot(
     for link in draft.robot.links:
         mirror_link(draft, link, index)
         mirror_meshes(draft, link, index, (meshes, mesh_dir), written)
-    _report_blocks(draft)
+    _mirror_blocks(draft, index)
     draft.declare("mirror", plane)
     if any(exchange):
         _exchange_names(draft, *exchange)
@@ -238,13 +238,30 @@ def _write_mesh(
     return name
 
 
-def _report_blocks(draft: Draft) -> None:
-    """List blocks of simulators with poses, which are not mirrored."""
+def _mirror_blocks(draft: Draft, index: int) -> None:
+    """Mirror the poses of sensors in blocks of simulators, and list others, which are not."""
     for block in draft.root.list_children("gazebo"):
         for element in block.walk():
-            if element.tag in ("pose", "xyz", "rpy", "xyzOffset", "rpyOffset", "axis"):
+            if _is_pose_of_sensor(element):
+                first, then = element.text.split()[:3], element.text.split()[3:]
+                place = _negate_words(" ".join(first), index, others=False)
+                turn = _negate_words(" ".join(then), index, others=True)
+                draft.set_text(element, f"{place} {turn}")
+            elif element.tag in ("pose", "xyz", "rpy", "xyzOffset", "rpyOffset", "axis"):
                 message = f"<{element.tag}> of <gazebo> is not mirrored"
                 draft.report("gazebo", message, element.place)
+
+
+def _is_pose_of_sensor(element: Element) -> bool:
+    """Tell whether it is the pose of a sensor in its link or joint, as six numbers."""
+    above = element.parent
+    return (
+        element.tag == "pose"
+        and above is not None
+        and above.tag == "sensor"
+        and not element.attributes
+        and parse_numbers(element.text, 6) is not None
+    )
 
 
 def _exchange_names(draft: Draft, one: str, other: str) -> None:

@@ -192,10 +192,13 @@ def _compute_own_shortfall(link: Link) -> float:
 def apply_base(robot: Robot, boxes: ShapeBoxes, base: ChosenBase, written: Written) -> Robot:
     """Return the robot with a joint to the world if its base is fixed by ``base``.
 
-    ``auto`` decides as exports to MJCF and USD do, from the boxes of the robot's shapes.
+    ``auto`` decides as exports to MJCF and USD do, from the boxes of the robot's shapes; a robot
+    without a joint that moves is an object, and stays free.
     """
     roots = robot.tree.roots
     if base == "" or base == "free" or len(roots) != 1 or roots[0].name == WORLD:
+        return robot
+    if base == "auto" and not robot.moving_joints:
         return robot
     tree = group_rigid_links(robot, lambda joint: not joint.is_fixed)
     home, _ = start_positions(robot)
