@@ -42,7 +42,7 @@ def make(folder):
     packages = folder / "packages"
     shutil.copytree(ROBOTS, packages)
     arm = expand(packages / "demo_arm/urdf/arm_sound.urdf.xacro")
-    names = ("arm_sim.urdf", "panda.urdf", "hand.urdf", "quadruped.urdf")
+    names = ("arm_sim.urdf", "panda.urdf", "hand.urdf", "quadruped.urdf", "jvrc1.urdf")
     for name in (*names, "urdf/arm.urdf", "robots/arm.urdf"):
         _put(folder / name, arm)
     _put(folder / "arm.urdf", re.sub("<inertial>.*?</inertial>", "", arm, count=1, flags=re.DOTALL))

@@ -148,3 +148,16 @@ def test_other_commands_say_that_a_bundle_is_a_zip_file(urdftool, bundle, comman
     assert result.code in (1, 2)
     assert "is a zip file, not a USDZ package; extract it" in result.out + result.err
     assert "PK" not in result.out + result.err
+
+
+def test_files_of_parameters_are_said_to_be_missing(write, urdftool, tmp_path):
+    path = write(
+        "in/k.urdf",
+        '<robot name="k"><link name="a"/><gazebo><plugin name="p" filename="x"><parameters>'
+        "config/c.yaml</parameters></plugin></gazebo></robot>",
+    )
+    write("in/config/c.yaml", "a: 1\n")
+    result = urdftool("bundle", path, "-o", tmp_path / "out", "--check")
+    assert result.code == 1
+    assert "'config/c.yaml' is not bundled" in result.err
+    assert "'config/c.yaml' does not exist in the bundle" in result.out

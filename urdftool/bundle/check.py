@@ -15,7 +15,7 @@ from ..errors import SourceError, UrdftoolError
 from ..model.elements import Robot
 from ..source.document import Element, parse, read_file
 from ..source.packages import find_own_package
-from .collect import is_outside
+from .collect import is_outside, is_parameter_file
 from .defect import OF_SOURCE, Defect
 from .manifest import MANIFEST, compute_digest, list_known_missing, parse_manifest, read_digests
 from .output import is_zip
@@ -159,7 +159,7 @@ def _check_description(folder: Path, inner: str, path: Path) -> Iterator[Defect]
                 yield from _check_reference(folder, inner, base, value)
         text = element.text.strip()
         is_uri = element.tag == "uri" and "://" not in text and "/" in text
-        if is_uri or is_name_of_file(text):
+        if is_uri or is_name_of_file(text) or is_parameter_file(text):
             yield from _check_reference(folder, inner, base, text)
 
 

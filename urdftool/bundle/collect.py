@@ -235,9 +235,14 @@ def _add_gazebo_files(
         values = [(v, element.locate_attribute(k)) for k, v in element.attributes.items()]
         for value, place in (*values, (element.text, element.place)):
             uri = value.strip()
-            if uri in found.assets or uri in found.missing or not is_outside(uri):
+            if uri in found.assets or uri in found.missing:
                 continue
-            path = find_file(robot, uri)
+            if is_parameter_file(uri):
+                found.missing.add(uri)
+                message = f"'{uri}' is not bundled: files of parameters are not"
+                found.notes.append(_make_note("external-file", message, place))
+                continue
+            path = find_file(robot, uri) if is_outside(uri) else None
             if path is None:
                 continue
             if not (_explain_size(path) or explain_invalid_mesh(path)):
@@ -255,6 +260,13 @@ def _add_gazebo_files(
 def is_outside(value: str) -> bool:
     """Tell whether a value is a URI of a file or an absolute path."""
     return value.startswith(("package://", "model://", "file://", "/")) and "\n" not in value
+
+
+def is_parameter_file(value: str) -> bool:
+    """Tell whether a value is a relative path, or one of a package, of a file of parameters."""
+    path = value.lower()
+    is_one = "$(" in path or not set(" \n") & set(path)
+    return path.endswith((".yaml", ".yml")) and is_one and not is_outside(value)
 
 
 def _make_note(
