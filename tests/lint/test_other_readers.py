@@ -49,6 +49,24 @@ def test_an_srdf_beside_a_file_is_for_moveit_unless_the_project_imports_other_re
     assert ("srdf-robot-name" in codes) is is_for_moveit
 
 
+@pytest.mark.parametrize(
+    ("camera", "is_for_moveit"),
+    [
+        ("import rclpy\n", False),
+        ("import rclpy\npath = 'cart.urdf'\n", True),
+        ("import rclpy\nnode.declare_parameter('robot_description')\n", True),
+    ],
+)
+def test_ros_counts_only_where_its_code_may_read_descriptions(tmp_path, camera, is_for_moveit):
+    path = _make_project(tmp_path, "import pybullet\nload('cart.urdf')\n", srdf=SRDF)
+    code = path.parent.parent
+    (code / "camera.py").write_text(camera)
+    (code / "show.ipynb").write_text("import rclpy  # urdf" + " " * (5 << 20))
+    assert ("srdf-unknown-link" in _codes(path)) is is_for_moveit
+    (code / "env.py").write_text("import pybullet\n")  # nothing shows who reads the description
+    assert "srdf-unknown-link" in _codes(path)
+
+
 @pytest.mark.parametrize(("code", "is_for_ros"), [("", True), ("import mujoco\n", False)])
 def test_the_package_of_a_copied_description_is_a_leftover(tmp_path, code, is_for_ros):
     robot = ROBOT.replace("</robot>", f"{LEFT}{CONTROL}</robot>")

@@ -108,6 +108,9 @@ _OTHER_ENGINES = frozenset(
 )
 """Libraries of dynamics and simulators, whose behavior few effects describe."""
 
+_DESCRIPTIONS_OF_ROS = (b"robot_description", b"xacro")
+"""What code with ROS contains that reads a description, if it does not mention URDF."""
+
 _ANY_ENGINE = frozenset(("mujoco", "pybullet", "pinocchio", "drake", "newton", "isaac"))
 """Readers whose effects show what another engine may do."""
 
@@ -124,6 +127,9 @@ _IMPORT = re.compile(rb"(?m)^[ \t]*(?:import|from)[ \t]+(\w+)")
 _IMPORT_LINE = re.compile(rb"\b(?:import|from)\b[^\n]*(?:\\\r?\n[^\n]*)*")
 _NAMES = tuple(sorted(name.encode() for name in {*_READERS, *_OTHER_ENGINES, *_OF_ROS} - _WORDS))
 _NAMED = re.compile(rb"\b(?:%s)\b" % b"|".join(_NAMES))
+_IMPORT_OF_ROS = re.compile(
+    rb"\b(?:import|from)[ \t]+(?:%s)\b" % b"|".join(sorted(name.encode() for name in _OF_ROS))
+)
 _WORD = re.compile(rb"\w+")
 _KEEPS_INERTIA = re.compile(rb"URDF_USE_INERTIA_FROM_FILE|\bflags\s*=\s*[1-9]")
 
@@ -133,7 +139,10 @@ _FILES = _FOLDERS = 1000
 _OF_URDF = (".urdf", ".xacro")
 
 _BYTES = 4 << 20
-"""Maximum size of a file of code; of a larger one, nothing is known. Chosen, no source."""
+"""Maximum size of a file of code; of a larger one, nothing is known. Chosen, no source.
+
+A larger notebook, whose size is that of its pictures, is passed over.
+"""
 
 
 def find_imported_readers(description: Description, targets: frozenset[str]) -> Use | None:
@@ -144,7 +153,7 @@ def find_imported_readers(description: Description, targets: frozenset[str]) -> 
     name may do what any other does.
 
     Returns:
-        The readers; None if the code imports none, or a library of ROS, where others use packages,
+        The readers; None if the code imports none, or a library of ROS that may read descriptions,
         or if the project has a launch file that starts Gazebo.
     """
     if description.path == "-" or not targets.isdisjoint(ROS):
@@ -164,7 +173,7 @@ def find_imported_readers(description: Description, targets: frozenset[str]) -> 
             if imports is None:
                 return None
             found = imports.of_urdf if description.path.endswith(_OF_URDF) else imports.of_any
-            return found._replace(readers=found.readers | targets)
+            return found and found._replace(readers=found.readers | targets)
     return None
 
 
@@ -213,9 +222,9 @@ def _is_packaged(files: Workspace, folder: Path, holds_module: bool) -> bool:
 
 
 class _Imports(NamedTuple):
-    """Who uses the descriptions of a project, and who those in URDF."""
+    """Who uses the descriptions of a project, None if ROS may, and who those in URDF."""
 
-    of_any: Use
+    of_any: Use | None
     of_urdf: Use
 
 
@@ -224,30 +233,37 @@ def _read_imports(files: Workspace, folder: str) -> _Imports | None:
     """Return the readers that code imports or names; None if it imports none.
 
     A name in other text, such as a requirement, a module that is imported by its name or a comment,
-    counts as use, since it may be one.
+    counts as use, since it may be one. Code with ROS that does not mention URDF, such as the driver
+    of a camera, reads no description if other code that imports a reader mentions it.
     """
     paths = list_code_of(files, folder)
     imported: set[str] = set()
     named: set[str] = set()
     of_urdf: set[str] = set()
     keeps_inertia = False
-    places_bodies = False
+    places_bodies = has_ros = False
     moved: set[str] = set()
     for path in paths:
         try:
             text = files.read_bytes(path, _BYTES)
         except (OSError, UrdftoolError):
+            if path.endswith(".ipynb"):
+                continue
             return None
         keeps_inertia = keeps_inertia or bool(_KEEPS_INERTIA.search(text))
         own = {name.decode() for name in _IMPORT.findall(text)}
         words = _NAMED.findall(text) if _holds_any(text, _NAMES) else []
         words += (word for line in _IMPORT_LINE.findall(text) for word in _WORD.findall(line))
         mentioned = {word.decode("utf-8", "replace") for word in words}
+        is_about_urdf = b"urdf" in text.lower()
         if mentioned & _OF_ROS:
-            return None
+            reads = is_about_urdf or _holds_any(text, _DESCRIPTIONS_OF_ROS)
+            if reads and _IMPORT_OF_ROS.search(text):
+                return None
+            has_ros = True
         imported |= own
         named |= mentioned & {*_READERS, *_OTHER_ENGINES}
-        if b"urdf" in text.lower():
+        if is_about_urdf:
             of_urdf |= {_READERS[name] for name in own & _READERS.keys()}
         for name in mentioned & _DYNAMICS_OF.keys():
             if _DYNAMICS_OF[name].search(text):
@@ -255,7 +271,7 @@ def _read_imports(files: Workspace, folder: str) -> _Imports | None:
         if _holds_any(text, _DYNAMICS_OF_PYBULLET):
             moved.add("pybullet")
         places_bodies = places_bodies or _holds_any(text, _POSES)
-    if _READERS.keys().isdisjoint(imported):
+    if _READERS.keys().isdisjoint(imported) or (has_ros and not of_urdf):
         return None
     used = named & {*_READERS}
     readers = {_READERS[name] for name in used}
@@ -269,7 +285,7 @@ def _read_imports(files: Workspace, folder: str) -> _Imports | None:
     found = Use(frozenset(readers), moves, keeps_inertia)
     is_of_mjcf = bool(of_urdf) and "mujoco" not in of_urdf and named.isdisjoint(_OTHER_ENGINES)
     left = readers - {"mujoco"} if is_of_mjcf else readers
-    return _Imports(found, found._replace(readers=frozenset(left)))
+    return _Imports(None if has_ros else found, found._replace(readers=frozenset(left)))
 
 
 def _holds_any(text: bytes, words: tuple[bytes, ...]) -> bool:
