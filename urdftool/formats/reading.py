@@ -64,8 +64,8 @@ def find_chosen(name: str, known: Sequence[str], what: str, place: Place) -> int
     names = ", ".join(known[:_LISTED]) + (", …" if len(known) > _LISTED else "")
     near = find_nearest(name, known)
     help_ = f"; did you mean '{near}'?" if near else ""
-    count = "no" if not found else f"{len(found)} times a"
-    raise ModelError(f"the file has {count} {what} '{name}'; it has {names}{help_}", at=place)
+    count = f"{len(found)} {what}s with the name" if found else f"no {what}"
+    raise ModelError(f"the file has {count} '{name}'; it has {names}{help_}", at=place)
 
 
 class _Part(NamedTuple):

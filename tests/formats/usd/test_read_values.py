@@ -121,7 +121,8 @@ def test_bodies_on_the_world_are_fixed_to_the_base(read):
 
 def test_a_stage_of_cloned_robots_has_the_links_of_one(write, tmp_path):
     hinge = joint("j", "a", "b", "continuous")
-    path = write("r.urdf", robot(link("a", 1, BOX), hinge, link("b", 1, BOX)))
+    root = link("base", None) + joint("hold", "base", "a")
+    path = write("r.urdf", robot(root, link("a", 1, BOX), hinge, link("b", 1, BOX)))
     (tmp_path / "r.usda").write_bytes(export(path, file="r.usda").files["r.usda"])
     clones = "".join(
         f'        def Xform "env_{n}" (references = @./r.usda@)\n        {{\n        }}\n'
@@ -131,7 +132,9 @@ def test_a_stage_of_cloned_robots_has_the_links_of_one(write, tmp_path):
     text += f'def Xform "World"\n{{\n    def Scope "envs"\n    {{\n{clones}    }}\n}}\n'
     (tmp_path / "envs.usda").write_text(text)
     reading = read_usd(tmp_path / "envs.usda")
-    assert set(reading.robot.link) - {"world"} == {"a", "b"}
+    assert reading.robot.name == "r"
+    assert set(reading.robot.link) == {"base", "a", "b"}
+    assert [link.name for link in reading.robot.tree.roots] == ["base"]
     found = codes(reading)
     assert "unread-articulation" in found
     assert "unread-scenery" not in found
@@ -156,6 +159,18 @@ def test_of_two_articulations_the_larger_is_read(read):
         assert sorted(read(text, name=name).robot.link) == ["x0", "x1"]
     with pytest.raises(ModelError, match="no articulation 'z'; it has /r/x, /r/y"):
         read(text, name="z")
+
+
+def test_a_name_of_two_articulations_is_refused(read):
+    head = '        prepend apiSchemas = ["PhysicsArticulationRootAPI"]\n    )\n    {\n'
+
+    def make_robot(folder):
+        joint = turning("j", f"{folder}/x/a", f"{folder}/x/b")
+        inner = f'    def Xform "x" (\n{head}{body("a")}{body("b")}{joint}    }}\n'
+        return f'    def Xform "{folder}"\n    {{\n{inner}    }}\n'
+
+    with pytest.raises(ModelError, match="2 articulations with the name 'x'; it has /r/p/x, /r/q"):
+        read(stage(make_robot("p"), make_robot("q")), name="x")
 
 
 def test_scale_counts_for_joint_frames_and_centers_of_mass(read):

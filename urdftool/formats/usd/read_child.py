@@ -59,12 +59,13 @@ def _read(
     with _convert_errors(file):
         stage, layers = _open_stage(path, file, losses, view)
         context = Context(stage, layers, losses, name)
-        robot = Robot(Written(context.get_place(context.top)), context.robot_name, format="usd")
+        robot = Robot(Written(context.get_place(context.top)), "", format="usd")
+        robot.world = _read_world(context)
+        joints = add_tree(context, robot)
+        robot.name = context.robot_name
         root = Element("robot", {"name": robot.name}, None, file, 0)
         document = Document(file, root, [])
         robot.source = Description(shown, document, layers.list_files(), finder)
-        robot.world = _read_world(context)
-        joints = add_tree(context, robot)
         _report_unread(context)
         add_native(context, robot, joints)
         folder = MeshFolder(mesh_folder, Place(file, 0, 0))
@@ -229,8 +230,9 @@ def _report_unread(context: Context) -> None:
             continue
         prim = prims[0]
         if _SELF.fullmatch(name):
-            if prim.GetAttribute(name).Get() is False and not context.is_ours:
-                without.setdefault(str(prim.GetPath()), prim)
+            own = [one for one in prims if not context.is_of_other(one)]
+            if own and own[0].GetAttribute(name).Get() is False and not context.is_ours:
+                without.setdefault(str(own[0].GetPath()), own[0])
             continue
         place = context.get_place(prim, name)
         if _HARMLESS.fullmatch(name):

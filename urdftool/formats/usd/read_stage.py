@@ -91,9 +91,20 @@ class Context:
         yield from Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
 
     @property
+    def exported(self) -> Usd.Prim:
+        """Return the prim of an export of this tool, which another stage may reference.
+
+        It is at or above the bodies that are read; the top if there is none.
+        """
+        prim = next(iter(self.bodies.values()), self.top)
+        while prim and not prim.GetCustomDataByKey("urdf:root"):
+            prim = prim.GetParent()
+        return prim or self.top
+
+    @property
     def robot_name(self) -> str:
         """Return the name of the robot."""
-        stored = self.top.GetCustomDataByKey("urdf:robot")
+        stored = self.exported.GetCustomDataByKey("urdf:robot")
         return str(stored) if stored else self.top.GetName().strip("/")
 
     def get_place(self, prim: Usd.Prim, attribute: str = "") -> Place:

@@ -406,7 +406,7 @@ def _get_joint_name(prim: Usd.Prim) -> str:
 
 
 def _is_root(context: Context, path: str) -> bool:
-    return context.names[path] == str(context.top.GetCustomDataByKey("urdf:root") or "")
+    return context.names[path] == str(context.exported.GetCustomDataByKey("urdf:root") or "")
 
 
 def _add_base(
