@@ -31,6 +31,11 @@ def _lint(urdftool, tmp_path, code, texts):
         ("URL = 'https://x/simhive.git'", "../simhive/a.stl", "folder 'simhive' is missing"),
         ("m = MjModel.from_xml_string(text, assets=files)", "a.stl", "hands files over as assets"),
         ("URL = 'simhives'", "../simhive/a.stl", ""),
+        (
+            "URL = 'https://x'" + "\n" * 500 + "for side in 'left', 'right': pass",
+            "../left/a.stl",
+            "",
+        ),
         ("m = MjModel.from_xml_path('a')", "../assets/a.stl", ""),
         ("# assets\nm = MjModel.from_xml_path('a')", "../assets/a.stl", ""),
         ("from_xml_string(text, assets=files); from_xml_path('a')", "a.stl", ""),

@@ -59,7 +59,7 @@ def test_every_format_has_the_friction_that_is_simulated(
     write, tmp_path, blocks, contact, friction
 ):
     robot = load(write(blocks, contact))
-    assert choose_surface(robot, ["a"]).friction == friction
+    assert choose_surface(robot, ["a"])["friction"] == friction
     for name, export in (
         ("sdf", api.export_sdf), ("mjcf", partial(api.export_mjcf, actuators="described")),
         ("usd", api.export_usd), ("urdf", api.export_urdf),

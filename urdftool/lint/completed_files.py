@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path, PurePosixPath
 
 from ..errors import UrdftoolError
@@ -25,6 +26,10 @@ _GENERIC = frozenset(
     )
 )
 """Names of folders that code also mentions for another reason. Chosen from public packages."""
+
+_FETCHES = re.compile(rb"https?://|\bgit clone\b|urlretrieve|snapshot_download")
+_NEAR = 400
+"""Distance [bytes] of a name from the download that it belongs to; chosen, no source."""
 
 _HANDS_OVER = re.compile(rb"\bfrom_xml_string\([^;]{0,200}?\bassets\b")
 _LOADS_PATH = re.compile(rb"\bfrom_xml_path\(")
@@ -58,10 +63,10 @@ def find_completing_code(files: Workspace, path: str, error: UrdftoolError) -> s
         folder = base.joinpath(*lost.parts[: number + 1])
         if name == ".." or name in _GENERIC or files.exists(folder):
             continue
-        word = re.compile(rb"(?<![\w-])%s(?![\w-])" % re.escape(os.fsencode(name)))
-        place = _find_place(files, code, word.search)
+        word = re.compile(rb"""(?<=["'/])%s(?=["'/.])""" % re.escape(os.fsencode(name)))
+        place = _find_place(files, code, partial(_find_near_download, word))
         if place:
-            return f"folder '{name}' is missing, which code of the project names ({place})"
+            return f"folder '{name}' is missing, which code that downloads names ({place})"
     if lost.suffix.lower() in (".png", ".jpg", ".jpeg"):
         place = _find_place(files, code, _SETS_FILE.search)
         if place:
@@ -71,6 +76,14 @@ def find_completing_code(files: Workspace, path: str, error: UrdftoolError) -> s
         if place:
             return f"code of the project hands files over as assets ({place})"
     return ""
+
+
+def _find_near_download(word: re.Pattern[bytes], text: bytes) -> re.Match[bytes] | None:
+    """Return the first match of a word that stands near to a download."""
+    for match in word.finditer(text):
+        if _FETCHES.search(text, max(match.start() - _NEAR, 0), match.end() + _NEAR):
+            return match
+    return None
 
 
 def _find_place(

@@ -141,7 +141,7 @@ _OF_URDF = (".urdf", ".xacro")
 _BYTES = 4 << 20
 """Maximum size of a file of code; of a larger one, nothing is known. Chosen, no source.
 
-A larger notebook, whose size is that of its pictures, is passed over.
+A larger notebook, whose size is that of its pictures, is skipped.
 """
 
 

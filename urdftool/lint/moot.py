@@ -170,7 +170,7 @@ class Rejections:
         effects = {}
         for key, effect in finding.effects.items():
             readers = key.split(", ")
-            left = [reader for reader in readers if self._gets(reader, finding)]
+            left = [reader for reader in readers if self._is_read_by(reader, finding)]
             if left:
                 one = len(left) == 1 < len(readers)
                 effects[", ".join(left)] = convert_to_singular(effect) if one else effect
@@ -178,8 +178,8 @@ class Rejections:
             return finding
         return replace(finding, effects=effects, moot=not effects and not selected)
 
-    def _gets(self, reader: str, finding: Finding) -> bool:
-        """Tell whether a reader gets what a finding is about, or the finding says that it does not.
+    def _is_read_by(self, reader: str, finding: Finding) -> bool:
+        """Tell whether a reader gets what a finding is about, or the finding is about that.
 
         Shapes of a robot are not in pinocchio's model if one of their files is missing.
         """

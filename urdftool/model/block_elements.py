@@ -87,7 +87,7 @@ def find_owner(robot: Robot, element: Element) -> tuple[str, str]:
     return "robot", robot.name
 
 
-def takes_settings(shape: str | None, link: str) -> bool:
+def is_set_by_block(shape: str | None, link: str) -> bool:
     """Tell whether Gazebo applies the settings of a link to a shape of that name in a URDF.
 
     As ``parser_urdf.cc`` of sdformat 12.3 (run): a name must begin with that of the link, and not

@@ -56,7 +56,7 @@ class RigidBodyJoint:
         lower: Lower limit [rad, m]; -inf without one.
         upper: Upper limit [rad, m]; inf without one.
         effort: Effort limit [N·m, N]; None without one, or if it is zero.
-        resistance: What URDF says of its ``RESISTANCE``, by the names of the rows.
+        resistance: Values of ``RESISTANCE`` of the URDF, by the names of the rows.
         leader: Name of the joint that it mimics; None without one.
         multiplier: Factor of the leader's position.
         offset: Offset added to the product [rad, m].

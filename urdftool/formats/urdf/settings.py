@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from lxml import etree
 
 from ...diagnostic import Severity
-from ...model.block_elements import make_taking_name, takes_settings
+from ...model.block_elements import is_set_by_block, make_taking_name
 from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import MOVABLE
 from ...model.numbers import format_content
@@ -104,7 +104,7 @@ def _rename_collisions(t: Translation, link: Link) -> None:
     for node in t.root.iterfind("link"):
         for shape in node.iterfind("collision") if node.get("name") == new else ():
             name = shape.get("name", "")
-            if not takes_settings(name, new):
+            if not is_set_by_block(name, new):
                 shape.set("name", make_taking_name(name, new))
                 text = f"collision '{name}' is named '{shape.get('name')}', so that Gazebo applies "
                 text += f"the <gazebo> block of link '{new}' to it"

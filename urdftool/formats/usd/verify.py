@@ -134,7 +134,7 @@ def read_start(path: Path) -> dict[str, float]:
 
 
 def read_self_collision(path: Path) -> bool:
-    """Tell whether a stage says that the links of its robot collide with each other."""
+    """Tell whether the links of a stage's robot collide with each other."""
     stage = Usd.Stage.Open(str(path))
     name = "newton:selfCollisionEnabled"
     return any(prim.GetAttribute(name).Get() for prim in stage.Traverse())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.block_elements import make_taking_name, takes_settings
+from ...model.block_elements import is_set_by_block, make_taking_name
 from ...model.elements import GazeboExtension, Robot
 from ...model.settings import LUMPING_TAGS, SURFACE_TAGS, get_text, is_set, is_true
 from ...source.document import Element
@@ -277,7 +277,7 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
             ("visual", link.visuals, words & {"material", "visual"}),
         ):
             for shape in shapes:
-                if tags and shape.name and not takes_settings(shape.name, link.name):
+                if tags and shape.name and not is_set_by_block(shape.name, link.name):
                     lost = " or ".join(sorted(tags))
                     new = make_taking_name(shape.name, link.name)
                     begins = shape.name.startswith(link.name)

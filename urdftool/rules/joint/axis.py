@@ -53,7 +53,6 @@ def zero_axis(robot: Robot, *, shortest: float = 1e-6) -> Iterator[Problem]:
         "urdfdom": "keeps its length",
         "pybullet": "accelerates the joint by another amount under torque and gravity",
     },
-    of_motion=True,
     pedantic="lengths from 0.7 to 1.4, whose torques accelerate about twice at most",
 )
 def axis_not_unit(robot: Robot, *, tolerance: float = 1e-3) -> Iterator[Problem]:
