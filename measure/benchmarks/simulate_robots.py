@@ -62,7 +62,7 @@ def judge_robot(named: tuple[str, Path]) -> list[str]:
         if fault.fails:
             first.setdefault(fault.code, fault.message[:110])
     why = "; ".join(f"{kind}: {message}" for kind, message in first.items())
-    return [name, describe_outcome(verdict), why]
+    return [name, describe_outcome(verdict).partition(" by up to ")[0], why]
 
 
 def summarize(rows: Sequence[Sequence[str]]) -> str:
@@ -74,7 +74,7 @@ def summarize(rows: Sequence[Sequence[str]]) -> str:
         if verdict != REFUSED
         for kind in set(KIND.findall(why))
     )
-    names = {kind for _, kind in kinds}
+    names = {kind for verdict, kind in kinds if verdict in FAILED}
     order = sorted(names, key=lambda kind: (-sum(kinds[v, kind] for v in FAILED), kind))
     counts = ", ".join(f"{n} {word}" for word, n in verdicts.most_common())
     lines = [" | ".join([f"`{kind}`", *(str(kinds[v, kind]) for v in FAILED)]) for kind in order]
