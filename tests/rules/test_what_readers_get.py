@@ -65,6 +65,22 @@ def test_gazebo_keeps_links_whose_joint_is_on_a_link_with_mass(tmp_path, masses,
     assert find_kept_links(read) == set(kept.split())
 
 
+@pytest.mark.parametrize(
+    ("mass", "rule"),
+    [(None, "missing-inertial"), (0, "zero-mass"), (1e-6, "zero-mass"), (1e-5, "")],
+)
+def test_a_link_without_mass_that_holds_a_joint_is_named_for_gazebo(tmp_path, mass, rule):
+    """As ``ign sdf -p``, which omits c without a message; the frame d holds no joint."""
+    links = {"a": inertial(1), "b": inertial(mass), "c": inertial(1), "d": ""}
+    path = tmp_path / "r.urdf"
+    path.write_text(robot(links, ["a b fixed", "b c revolute", "c d fixed"]))
+    for target, codes in (("gz", [rule] * bool(rule)), ("mujoco", [])):
+        options = Options(Settings(targets=frozenset({target})))
+        found = [f for f in check_file(path, options).findings if "omits 'c'" in f.message]
+        assert [f.code for f in found] == codes
+        assert all(f.severity.label == "error" and f.name == "b" for f in found)
+
+
 def test_no_effect_on_gazebo_of_a_link_that_it_omits(tmp_path):
     links = {name: inertial(mass) for name, mass in (("a", 1), ("b", 0), ("c", 0.5))}
     odd = '<inertial><mass value="0.5"/>' + TENSOR.replace("/>", ' izx="1"/>') + "</inertial>"

@@ -25,11 +25,7 @@ def find_kept_links(robot: Robot) -> set[str] | None:
     """
     if len(robot.tree.roots) != 1:
         return None
-    masses: dict[str, float] = {}
-    for name in reversed(robot.tree.order):
-        children = (joint.child for joint in robot.tree.get_child_joints(name))
-        lumped = (child for child in children if is_lumped(robot, child))
-        masses[name] = robot.link[name].mass + sum(masses.get(c, 0.0) for c in lumped)
+    masses = _compute_masses(robot)
     kept: set[str] = set()
     held: set[str] = set()  # links on which a joint keeps its child
     for name in robot.tree.order:
@@ -43,6 +39,38 @@ def find_kept_links(robot: Robot) -> set[str] | None:
             if name != "world":
                 kept.add(name)
     return kept
+
+
+def _compute_masses(robot: Robot) -> dict[str, float]:
+    """Compute the mass [kg] of each link with the links that are lumped into it."""
+    masses: dict[str, float] = {}
+    for name in reversed(robot.tree.order):
+        children = (joint.child for joint in robot.tree.get_child_joints(name))
+        lumped = (child for child in children if is_lumped(robot, child))
+        masses[name] = robot.link[name].mass + sum(masses.get(c, 0.0) for c in lumped)
+    return masses
+
+
+def find_massless_holders(robot: Robot, kept: Set[str]) -> dict[str, list[str]]:
+    """Find lumped links without mass for which Gazebo omits bodies with mass whose joint is there.
+
+    Args:
+        robot: The robot, which is one tree.
+        kept: The links of :func:`find_kept_links`.
+
+    Returns:
+        The omitted links, by the link without mass.
+    """
+    omitted = [joint for joint in robot.joints if not is_lumped(robot, joint.child)]
+    omitted = [joint for joint in omitted if joint.child not in kept and joint.parent in robot.link]
+    found: dict[str, list[str]] = {}
+    masses = _compute_masses(robot) if omitted else {}
+    for joint in omitted:
+        holder = joint.parent
+        if is_lumped(robot, holder) and get_lumped_body(robot, holder) in kept:
+            if masses.get(joint.child, 0.0) > _NO_MASS >= abs(masses.get(holder, 0.0)):
+                found.setdefault(holder, []).append(joint.child)
+    return found
 
 
 def find_omitted_links(robot: Robot, kept: Set[str]) -> Iterator[str]:

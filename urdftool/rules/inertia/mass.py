@@ -21,6 +21,7 @@ from .density import GOLD
 from .known_size import measure_known_size
 from .light_body import find_light_body
 from .markers import is_anchor, is_marker
+from .massless import report_holders
 from .solids import compute_volume, is_helper
 from .tensors import has_written_inertial
 
@@ -37,6 +38,7 @@ _AS_ROOT = ("gz, gazebo-classic (root)", "pybullet (root)")
             "load nothing: a model must have at least one link (sdformat 12.3)"
         ),
         "gz, gazebo-classic (both)": "reject the robot: pose values must be finite (sdformat 12.3)",
+        "gz, gazebo-classic (holds)": "omit the links whose joints are on it (sdformat 12.3)",
         "gz, gazebo-classic, pinocchio (part)": "add the inertia to the body that it is fixed to",
         "mujoco": "rejects the file: mass of moving bodies must be positive",
         "mujoco (part)": "ignores the inertia",
@@ -60,8 +62,9 @@ def zero_mass(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     the names of its links and joints. If the mass is 0 and the
     inertia is not, Gazebo and pinocchio add the inertia to the body, and Drake gives the link 1 kg.
     Two links of mass 0 that are fixed to each other break Gazebo's reader, which divides by the sum
-    of their masses.
+    of their masses. It omits links whose joint is on a link of mass 0 that is fixed to another one.
     """
+    yield from report_holders(robot, targets, is_written=True)
     zero = [link for link in robot.links if link.inertial and link.inertial.mass == 0.0]
     if not zero:
         return

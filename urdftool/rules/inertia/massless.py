@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.elements import MOVING_TYPES, Joint, Link, Robot
-from ..rule import GAZEBO, INFO, Problem
+from ..gazebo.lumped_model import find_kept_links, find_massless_holders
+from ..rule import ERROR, GAZEBO, INFO, Problem
+from ..words import quote
 from ..xml.vocabulary_table import find_misspelled_children
 from .bodies import find_rigid_bodies
 from .device_frames import is_massless_scene
@@ -112,3 +114,28 @@ def select_effects(robot: Robot, link: Link, in_gazebo: str) -> set[str]:
     elif not any(one.mass > 0 or (one.inertial is None and one.collisions) for one in body):
         keys.add("mujoco (no mass)")
     return keys
+
+
+def report_holders(robot: Robot, targets: frozenset[str], *, is_written: bool) -> Iterator[Problem]:
+    """Report links without mass for which Gazebo omits those that their joints move.
+
+    Args:
+        robot: The robot.
+        targets: Its targets.
+        is_written: Whether to report links with an ``<inertial>``, of mass 0, or those without one.
+    """
+    kept = None if targets.isdisjoint(GAZEBO) else find_kept_links(robot)
+    for name, omitted in (find_massless_holders(robot, kept) if kept else {}).items():
+        if (robot.link[name].inertial is not None) is is_written:
+            yield Problem(
+                robot.link[name],
+                f"link '{name}' has at most 1e-6 kg and is fixed to another, so Gazebo omits "
+                f"{quote(omitted)}, which a joint on it moves, and everything attached to it; give "
+                "it a mass above 1e-6 kg, or put the joint on the link that it is fixed to",
+                severity=ERROR,
+                group="{count} links have at most 1e-6 kg and are fixed to others, so Gazebo omits "
+                "what their joints move; give each a mass above 1e-6 kg, or put the joints on the "
+                "links that they are fixed to: {names}",
+                effects=("gz, gazebo-classic (holds)",),
+                alike="holds",
+            )

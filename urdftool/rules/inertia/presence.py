@@ -44,6 +44,7 @@ from .massless import (
     find_moved_bodies,
     is_bare,
     is_only_kinematic,
+    report_holders,
     report_massless,
     select_effects,
 )
@@ -70,6 +71,9 @@ _AS_PART = (
         "gz, gazebo-classic (part)": (
             "lump it into the link with mass that it is fixed to; the upper name remains"
         ),
+        "gz, gazebo-classic (holds)": (
+            "omit the links whose joints are on it, and their descendants, without a message"
+        ),
         "pybullet": "assumes 1 kg, and with URDF_USE_INERTIA_FROM_FILE 1 kg·m² about each axis",
         "mujoco (collisions)": "computes a mass from its collisions, at the density of water",
         "mujoco (no mass)": "rejects the file: mass of moving bodies must be positive",
@@ -94,7 +98,9 @@ def missing_inertial(
     is less than a fiftieth of the robot's mass and than its body's.
     Frames without geometry need none, although PyBullet gives them 1 kg, nor does a frame with a
     marker below 1 g at the density of water that is fixed to a link with a mass. Another such
-    marker is an info where MuJoCo substitutes the mass. Without a simulator among the targets,
+    marker is an info where MuJoCo substitutes the mass. A link without mass, with geometry or not,
+    that is fixed to a link with mass is no place for a joint in Gazebo: sdformat 12.3 omits the
+    link that the joint moves. Without a simulator among the targets,
     links of xacro files are not reported that write inertials under a condition, and a
     robot without any is one info, if it has several links with geometry, or no geometry and at
     least three joints that move: it serves kinematics or display.
@@ -117,6 +123,8 @@ def missing_inertial(
         return
     tops: dict[str, Link] | None = None
     kept = find_kept_links(robot)
+    holders = list(report_holders(robot, targets, is_written=False))
+    yield from holders
     for link in robot.links:
         if link.inertial is not None or link.is_frame or link.name == "world":
             continue
