@@ -579,8 +579,21 @@ def test_a_pitch_of_22_m_is_not_in_millimeters(tmp_path, half, count):
     trimesh = pytest.importorskip("trimesh")
     trimesh.creation.box((22, 14, 0.1)).export(tmp_path / "pitch.stl")
     write(tmp_path, {"pitch.xml": PITCH.format(half=half, scale="")})
-    found = check_other(tmp_path / "pitch.xml", "mesh-in-millimeters")
-    assert len(found) == count
+    from urdftool.api.lint import check as check_robot
+
+    found = check_robot(tmp_path / "pitch.xml")  # scenery is off by default
+    assert sum(one.code == "mesh-in-millimeters" for one in found) == count
+
+
+def test_a_slab_that_is_fixed_to_the_world_is_not_in_millimeters(tmp_path):
+    pytest.importorskip("mujoco")
+    trimesh = pytest.importorskip("trimesh")
+    trimesh.creation.box((20, 20, 0.1)).export(tmp_path / "pitch.obj")
+    text = PITCH.format(half="1", scale="").replace("pitch.stl", "pitch.obj")
+    write(tmp_path, {"pitch.xml": text})
+    from urdftool.api.lint import check as check_robot
+
+    assert "mesh-in-millimeters" not in {one.code for one in check_robot(tmp_path / "pitch.xml")}
 
 
 def check_other(path, *rules):

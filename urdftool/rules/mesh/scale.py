@@ -91,6 +91,7 @@ def _compute_largest(use: MeshUse, whole: bool = False) -> float | None:
         "mujoco, pybullet, pinocchio": "take the numbers of the file as meters",
     },
     formats=ANY_FORMAT,
+    pedantic="scenery that is fixed to the world: slabs, and with a primitive half as long",
 )
 def mesh_in_millimeters(
     robot: Robot, description: Description, *, largest: float = 10.0
@@ -100,18 +101,20 @@ def mesh_in_millimeters(
     STL files have no unit, and CAD programs often export millimeters, but readers take meters.
     Among thousands of meshes of real robots, none was between 2 m and 100 m long. Add
     ``scale="0.001 0.001 0.001"``. A scene without a moving joint may be as large as a building: of
-    such, only STL files above 100 m are reported; and so of what is fixed to the world, where a
-    primitive shape is at least half as long: a pitch with its boards.
+    such, only STL files above 100 m are reported. What is fixed to the world is off by default, if
+    a primitive shape is at least half as long, as a pitch with its boards, or if it is a slab that
+    is no STL file.
     """
     seen: set[str] = set()
     for use in get_mesh_uses(robot, description):
         length = _compute_largest(use) if use.uri not in seen else None
         if length is not None and length > largest:
-            is_scene = not robot.moving_joints or _is_part_of_scene(robot, use, length)
-            if is_scene and not _is_larger_than_scene(use, length):
+            is_larger = _is_larger_than_scene(use, length)
+            if not robot.moving_joints and not is_larger:
                 continue
             seen.add(use.uri)
-            yield _report_large_mesh(use, length, largest)
+            is_scenery = not is_larger and _is_part_of_scene(robot, use, length)
+            yield _report_large_mesh(use, length, largest, is_scenery=is_scenery)
 
 
 @mesh_in_millimeters.full
@@ -129,14 +132,21 @@ def report_every_mesh_in_millimeters(robot: Robot) -> Iterator[Problem]:
             yield _report_large_mesh(use, length, largest)
 
 
+_SLAB = 50
+"""Least ratio of the length of a slab to its thickness; chosen: a ground of 20 m had 0.1 m."""
+
 _SCENE = 100.0
 """Largest length [m] of a scene; STL scenes of hpp-environments have up to 27 m."""
 
 
 def _is_part_of_scene(robot: Robot, use: MeshUse, length: float) -> bool:
-    """Tell whether a mesh is fixed to the world, as a primitive of half its length."""
+    """Tell whether a mesh is fixed to the world, and a slab or next to a primitive half as long."""
     if not is_fixed_to_world(robot, use.link):
         return False
+    if use.path is not None and use.path.suffix.lower() != ".stl":
+        box = compute_mesh_box(use)
+        if box is not None and min(box.size) * _SLAB < length:
+            return True
     boxes = [
         compute_bounds(shape)
         for link, shape in robot.shapes
@@ -152,7 +162,9 @@ def _is_larger_than_scene(use: MeshUse, length: float) -> bool:
     return max(length, _compute_largest(use, whole=True) or 0.0) > _SCENE
 
 
-def _report_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
+def _report_large_mesh(
+    use: MeshUse, length: float, largest: float, *, is_scenery: bool = False
+) -> Problem:
     length = _compute_largest(use, whole=True) or length  # a sample is a lower bound
     right = ""
     if use.mesh.xml is None and use.mesh.scale == (1.0, 1.0, 1.0):
@@ -169,6 +181,7 @@ def _report_large_mesh(use: MeshUse, length: float, largest: float) -> Problem:
             "limit": largest,
             "scale": list(use.mesh.scale),
         },
+        pedantic=is_scenery,
     )
 
 
