@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import pytest
 
@@ -252,3 +253,21 @@ def test_names_of_collisions_let_gazebo_apply_their_friction(tmp_path, urdftool)
     assert result.code == 0, result.err
     assert "collision 'hull' is named 'a_hull'" in result.err
     assert '<collision name="a_hull">' in out.read_text("utf-8")
+
+
+def test_names_of_collisions_stay_apart(tmp_path, urdftool):
+    path = tmp_path / "m.sdf"
+    shape = (
+        '<collision name="{}"><geometry><box><size>1 1 1</size></box></geometry><surface>'
+        "<friction><ode><mu>0.3</mu></ode></friction></surface></collision>"
+    )
+    path.write_text(
+        '<sdf version="1.9"><model name="m"><link name="a"><inertial><mass>1</mass></inertial>'
+        f"{shape.format('hull')}{shape.format('a_hull')}</link></model></sdf>",
+        "utf-8",
+    )
+    out = tmp_path / "m.urdf"
+    assert urdftool("export", "urdf", path, "-o", out).code == 0
+    names = re.findall(r'<collision name="(\w+)"', out.read_text("utf-8"))
+    assert len(set(names)) == 2
+    assert all(name.startswith("a_hull") for name in names)

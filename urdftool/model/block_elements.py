@@ -12,7 +12,7 @@ from ..source.location import Place
 from .elements import GazeboExtension, Joint, Link, Robot
 from .settings import JOINT_TAGS, LUMPING_TAGS
 
-_LUMPED = "_fixed_joint_lump__"
+LUMPED = "_fixed_joint_lump__"
 """Mark in the names that Gazebo gives to the shapes of lumped links."""
 
 
@@ -93,9 +93,9 @@ def is_set_by_block(shape: str | None, link: str) -> bool:
     As ``parser_urdf.cc`` of sdformat 12.3 (run): a name must begin with that of the link, and not
     be one of a lumped shape; shapes without a name are named by the parser.
     """
-    return not shape or (shape.startswith(link) and _LUMPED not in shape)
+    return not shape or (shape.startswith(link) and LUMPED not in shape)
 
 
 def make_taking_name(shape: str, link: str) -> str:
     """Return a name of a shape with which the settings of its link apply."""
-    return f"{link}_{shape.replace(_LUMPED, '_')}"
+    return f"{link}_{shape.replace(LUMPED, '_')}"

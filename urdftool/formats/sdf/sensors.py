@@ -5,7 +5,7 @@ from __future__ import annotations
 from copy import deepcopy
 
 from ...diagnostic import Severity
-from ...model.block_elements import list_part_elements
+from ...model.block_elements import LUMPED, list_part_elements
 from ...model.elements import Joint, Link
 from ...rules.gazebo.sensors import TYPES
 from ...source.document import Element
@@ -18,8 +18,6 @@ from .sensor_types import TO_CLASSIC, TO_GZ
 from .shape_names import choose_shape_names
 from .translation import Translation
 from .xml import Node
-
-_LUMP = "_fixed_joint_lump__"
 
 
 def add_sensors(node: Node, t: Translation, link: Link) -> None:
@@ -135,7 +133,7 @@ def _update_contacts(made: Node, t: Translation, part: Link | Joint, element: El
     by_link = {f"{m.name}_collision": names[id(m.collisions[0])] for m in members if m.collisions}
     for tag in made.iterfind("contact/collision"):
         name = (tag.text or "").strip()
-        short = name.rpartition(_LUMP)[2].rpartition("::")[2]
+        short = name.rpartition(LUMPED)[2].rpartition("::")[2]
         for candidate in (name, short, short.removesuffix("_collision")):
             if candidate in here:
                 tag.text = candidate

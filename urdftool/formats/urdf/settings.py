@@ -12,6 +12,7 @@ from ...model.elements import Joint, Link, Robot
 from ...model.kinematics import MOVABLE
 from ...model.numbers import format_content
 from ...model.settings import OF_JOINTS, OF_LINKS, OF_ROBOT, SURFACE, Setting, Settings
+from ..common.naming import get_free_name
 from .translation import Translation, add
 
 
@@ -102,10 +103,13 @@ def _rename_collisions(t: Translation, link: Link) -> None:
     """Begin the names of the collisions of a link with its own; Gazebo ignores its block else."""
     new = t.names.links[link.name]
     for node in t.root.iterfind("link"):
-        for shape in node.iterfind("collision") if node.get("name") == new else ():
+        shapes = node.findall("collision") if node.get("name") == new else []
+        taken = {shape.get("name") for shape in shapes}
+        for shape in shapes:
             name = shape.get("name", "")
             if not is_set_by_block(name, new):
-                shape.set("name", make_taking_name(name, new))
+                shape.set("name", get_free_name(make_taking_name(name, new), taken))
+                taken.add(shape.get("name"))
                 text = f"collision '{name}' is named '{shape.get('name')}', so that Gazebo applies "
                 text += f"the <gazebo> block of link '{new}' to it"
                 t.written.report_loss(

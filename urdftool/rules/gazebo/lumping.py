@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.block_elements import is_set_by_block, make_taking_name
+from ...model.block_elements import LUMPED, is_set_by_block, make_taking_name
 from ...model.elements import GazeboExtension, Robot
 from ...model.settings import LUMPING_TAGS, SURFACE_TAGS, get_text, is_set, is_true
 from ...source.document import Element
@@ -338,7 +338,7 @@ def lumped_link_referenced(robot: Robot) -> Iterator[Problem]:
                 text = collision.text.strip()
                 if text == f"{link.name}_collision" and is_lumped(robot, link.name):
                     body = get_lumped_body(robot, link.name)
-                    new = f"{body}_fixed_joint_lump__{link.name}_collision"
+                    new = f"{body}{LUMPED}{link.name}_collision"
                     yield Problem(
                         block.element,
                         f"collision '{text}' becomes '{new}' (or '{new}_1' …) in Gazebo, because "
