@@ -2,6 +2,7 @@
 
 import pytest
 
+from urdftool.diagnostic import Severity
 from urdftool.formats.mjcf.joint import get_plane
 from urdftool.model.pose import compute_dot
 from urdftool.refusal import Refused
@@ -85,7 +86,30 @@ def test_a_locked_joint_is_welded_at_its_position(write, limit, kind, pose, rule
     assert (body.get("pos"), body.get("quat")) == pose
     assert find(model, "site", "j").getparent() is body
     assert list(model.find("worldbody").iter("joint")) == []
-    assert rules(written) == [rule]
+    assert rules(written) == ["lossy-locked", rule]
+
+
+@pytest.mark.parametrize(
+    ("second", "kind", "locked"),
+    [
+        ('<limit lower="1" upper="1"/>', "prismatic", "all 2 joints"),
+        ('<limit lower="-1" upper="1"/><mimic joint="j"/>', "prismatic", "the only joint"),
+        ("", "fixed", "the only joint"),
+        ('<limit lower="-1" upper="1"/>', "prismatic", None),
+        ("", "continuous", None),
+        ("", "floating", None),
+    ],
+)
+def test_a_robot_whose_joints_are_all_locked_is_a_warning(write, second, kind, locked):
+    text = robot(
+        link("a"), link("b"), link("c"),
+        joint("j", "a", "b", inside='<limit lower="0" upper="0"/>'),
+        joint("k", "b", "c", kind, second),
+    )  # fmt: skip
+    losses = {loss.code: loss for loss in export(write("r.urdf", text)).losses}
+    loss = losses.get("lossy-locked")
+    assert (loss and loss.message.partition(" that ")[0]) == locked
+    assert loss is None or loss.severity is Severity.WARNING
 
 
 @pytest.mark.parametrize("limit", ['effort="1"', 'velocity="9"', 'effort="1.7" velocity="111"'])

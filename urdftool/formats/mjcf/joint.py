@@ -68,6 +68,22 @@ def create_locked_site(joint: Joint, written: Written) -> etree._Element:
     return etree.Element("site", {"name": joint.name, **SITE})
 
 
+def report_locked_joints(structure: Structure, written: Written) -> None:
+    """Report that equal limits hold every joint, so that no joint of the model moves."""
+    count = len(structure.locked)
+    if count and all(joint.mimic is not None for joint in structure.moving):
+        joints = f"all {count} joints" if count > 1 else "the only joint"
+        written.report_loss(
+            "locked",
+            f"{joints} that could move {'have' if count > 1 else 'has'} equal limits: no joint of "
+            f"the model moves, as {'their links are' if count > 1 else 'its link is'} welded",
+            structure.robot.place,
+            kind="robot",
+            name=structure.robot.name,
+            hint="write the limits, or the type continuous",
+        )
+
+
 def get_effort(joint: Joint) -> float | None:
     """Return the effort limit [N·m or N] of a joint; None if it has none or zero."""
     return joint.get_magnitude("effort") or None

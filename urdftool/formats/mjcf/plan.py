@@ -35,7 +35,7 @@ from .for_rl import add_rotors, find_feet, list_joint_sensors, set_foot_contact
 from .gazebo import USUAL_FRICTION
 from .home import Home, place_home
 from .inertials import compute_inertials
-from .joint import PLANAR_SUFFIXES, get_axis, get_plane
+from .joint import PLANAR_SUFFIXES, get_axis, get_plane, report_locked_joints
 from .joint_settings import choose_joint_settings, set_joint_values
 from .link_inertia import LinkInertia
 from .loops import plan_closures
@@ -80,6 +80,7 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     srdf = read_srdf(options.srdf, robot, written, packages) if options.srdf else None
     keep_locked = options.keep_locked_joints or robot.format == "mjcf"  # which holds them itself
     structure = create_structure(robot, keep_locked=keep_locked)
+    report_locked_joints(structure, written)
     boxes = ShapeBoxes(robot)
     chosen = choose_home_positions(robot, options.pose, options.state, srdf, written)
     virtual_joint = srdf.virtual_joint if srdf else None
