@@ -1,6 +1,7 @@
 """The page that sums up the measurements says what their pages say."""
 
 import ast
+import csv
 import re
 from pathlib import Path
 
@@ -45,3 +46,19 @@ def test_the_page_counts_the_verdicts_of_its_rows():
     counts, table = summarize(rows).split("\n\n")
     assert counts in page
     assert table in page
+
+
+def test_the_page_of_fidelity_counts_its_rows():
+    from measure.benchmarks.fidelity_page import DATA, PAGE
+
+    rows = list(csv.DictReader(DATA.read_text("utf-8").splitlines(), delimiter="\t"))
+    page = PAGE.read_text("utf-8").partition("\n<!-- usd ")[0]
+    lines = [line.split(" | ") for line in page.splitlines() if line.startswith("| ")]
+    tools, equal = ([cell.strip(" |") for cell in line[1:]] for line in (lines[0], lines[-1]))
+    assert equal == [
+        str(sum((row["tool"], row["result"]) == (tool, "equal") for row in rows)) for tool in tools
+    ]
+    notes = [row["notes"] for row in rows]
+    unreported = sum("difference not reported" in note for note in notes)
+    assert f"; in {unreported} it found a difference that was not reported as a loss." in page
+    assert f" {sum('forced' in note for note in notes)} needed `--force`." in page

@@ -76,7 +76,10 @@ def make_tilted_rods(count):
 
 
 def test_a_tilted_rod_has_a_radius_that_rounding_does_not_hide():
-    written = tree(export(make_tilted_rods(20)))
+    exported = export(make_tilted_rods(20))
+    named_links = {loss.name for loss in exported.losses if loss.code == "lossy-inertia"}
+    assert named_links == {f"rod{number}" for number in range(20)}
+    written = tree(exported)
     for number in range(20):
         inertia = named(written, "link", f"rod{number}").find("inertial/inertia")
         xx, xy, xz, yy, yz, zz = (float(part.text) for part in inertia)

@@ -85,18 +85,31 @@ def add_inertial(node: Node, t: Translation, link: Link) -> None:
             link,
         )
         tensor = find_nearest_consistent(tensor, CLEAR)
-    _add_tensor(node, _clear_rounding(tensor))
+    margin = _find_margin(tensor)
+    if margin == _DOUBLE_MARGIN:
+        t.report_note(
+            "inertia",
+            f"inertia of link '{link.name}' is that of a thin tilted rod, which Gazebo's reader "
+            f"rejects by rounding; its moments are moved by {margin:g} of the largest",
+            about,
+            link,
+        )
+    _add_tensor(node, find_nearest_consistent(tensor, margin) if margin else tensor)
 
 
-def _clear_rounding(tensor: SymmetricTensor) -> SymmetricTensor:
-    """Return a tensor that readers accept although they round its principal moments."""
+def _find_margin(tensor: SymmetricTensor) -> float:
+    """Find the excess that lets readers accept a tensor although they round its moments.
+
+    Returns:
+        The excess, relative to the largest moment; 0 if they accept the tensor as it is.
+    """
     consistency = measure_consistency(tensor)
     _, middle, high = consistency.moments
     margin = _DOUBLE_MARGIN if high - middle <= _DOUBLE * high else _MARGIN
     is_diagonal = not (tensor[1] or tensor[2] or tensor[4])
     if consistency.excess < -margin or (is_diagonal and consistency.excess <= _EPSILON):
-        return tensor
-    return find_nearest_consistent(tensor, margin)
+        return 0.0
+    return margin
 
 
 def _add_tensor(node: Node, tensor: SymmetricTensor) -> None:
