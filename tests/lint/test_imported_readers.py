@@ -168,7 +168,7 @@ def test_only_code_of_the_project_makes_a_report_old(tmp_path):
     _names(tmp_path, "import pybullet\n")
     robot = tmp_path / "data" / "cart.urdf"
     found, asked = _find_readers(robot)
-    assert found == Use(frozenset(("pybullet",)))
+    assert found == Use(frozenset(("pybullet",)), frozenset(("pybullet",)))
     before = [compute_answer(one) for one in asked]
     for name in (".cache/a.py", "__pycache__/env.pyc", "build/b.py", "data/report.json"):
         (tmp_path / name).parent.mkdir(exist_ok=True)

@@ -135,7 +135,9 @@ def test_a_capsule_is_an_error_where_a_reader_of_the_project_drops_it(tmp_path, 
     ("code", "reported"),
     [
         ("import pybullet\nclient.resetJointState(0, 1, 2)\n", False),
-        ("import pybullet\nclient.resetJointState(0, 1, 2)\nimport gymnasium\n", True),
+        ("import pybullet\nclient.resetJointState(0, 1, 2)\nimport gymnasium\n", False),
+        ("import pybullet, gym\np.resetJointState(0, 1, 2)\np.stepSimulation()\n", True),
+        ("import pybullet\nclient.resetJointState(0, 1, 2)\nclient.stepSimulation()\n", False),
         ("import pybullet\nclient.setJointMotorControl2(0, 1, 2)\n", True),
     ],
 )

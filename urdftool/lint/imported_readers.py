@@ -20,58 +20,19 @@ from ..source.comments import blank_comments
 from ..source.description import Description
 from ..source.nearby_files import read_optional_file
 from ..workspace import Workspace, memoize_by_workspace
+from .called_names import list_names
 from .evidence import read_launch_files
-
-CHAIN = "kinematic chains"
-"""Readers that take joints and their limits: no masses, no shapes."""
-
-SCENE = "kinematics and shapes"
-"""Readers that take joints, and shapes at their places: no masses, no motion."""
-
-_READERS = {
-    **dict.fromkeys(("mujoco", "mujoco_py", "dm_control", "robosuite", "brax"), "mujoco"),
-    **dict.fromkeys(("mujoco_warp", "mujoco_playground", "gymnasium_robotics"), "mujoco"),
-    **dict.fromkeys(("pybullet", "pybullet_utils", "pybullet_data"), "pybullet"),
-    **dict.fromkeys(("pinocchio", "crocoddyl", "tsid", "pink", "placo"), "pinocchio"),
-    **dict.fromkeys(("jiminy_py", "gym_jiminy"), "pinocchio"),
-    "pydrake": "drake",
-    "newton": "newton",
-    **dict.fromkeys(("hpp", "pyhpp", "hppfcl", "coal", "gepetto"), "pinocchio"),
-    **dict.fromkeys(("ikpy", "kinpy", "pytorch_kinematics", "tracikpy", "pypot"), CHAIN),
-    **dict.fromkeys(("yourdfpy", "urdfpy", "urchin", "pyroki", "skrobot", "klampt"), SCENE),
-    "pytransform3d": SCENE,
-}
-"""Reader, as effects name it, of each library."""
-
-_WITHOUT_DYNAMICS = frozenset(
-    (
-        *(name for name, reader in _READERS.items() if reader in (CHAIN, SCENE)),
-        *("hpp", "pyhpp", "hppfcl", "coal", "gepetto"),
-    )
+from .libraries import (
+    GYM,
+    NAMES_OF_CALLS,
+    OF_ROS,
+    OTHER_ENGINES,
+    READERS,
+    WORDS,
+    find_moving_readers,
 )
-"""Libraries of kinematics, distances and path planning."""
 
-_DYNAMICS_OF_PYBULLET = (
-    *(b"setJointMotorControl", b"applyExternal", b"calculateInverseDynamics", b"changeDynamics"),
-    *(b"calculateMassMatrix", b"createConstraint", b"resetBaseVelocity", b"getDynamicsInfo"),
-    *(b"pybullet_envs", b"import gym", b"from gym"),
-)
-"""What code with dynamics of PyBullet contains; an environment of Gymnasium moves its robots."""
-
-_DYNAMICS_OF = {
-    "pinocchio": re.compile(
-        rb"\b(?:rnea|aba|crba|ccrba|computeAllTerms|computeMinverse|nonLinearEffects|dccrba)\b"
-        rb"|computeGeneralizedGravity|computeCentroidal|centerOfMass|forwardDynamics|\.inertias\b"
-        rb"|RNEA|computeTotalMass|Regressor|computeKineticEnergy|computeStaticTorque"
-    ),
-    "klampt": re.compile(rb"\bSimulator\b|getMass\b|dynamics|getGravityForces"),
-}
-"""What code with dynamics calls, of other libraries that are used without dynamics, too."""
-
-_POSES = (b"resetJointState", b"calculateInverseKinematics")
-"""What code calls that places the bodies of PyBullet itself, though it may step the simulation."""
-
-_OF_PLANNER = re.compile(rb"<(name|\w*depend)>\s*hpp[-_][\w-]+\s*</\1>")
+_OF_PACKAGE_OF_HPP = re.compile(rb"<(name|\w*depend)>\s*hpp[-_][\w-]+\s*</\1>")
 """What a package.xml of HPP says: its name, or a package that it depends on."""
 
 
@@ -79,34 +40,23 @@ class Use(NamedTuple):
     """Who uses the descriptions of a project.
 
     Attributes:
-        readers: The readers, as effects name them; also ``CHAIN`` and ``SCENE``.
-        moves: Whether one of them computes dynamics.
+        readers: The readers, as effects name them; also the kinds of readers in ``libraries``.
+        moving: Those of them by which code computes dynamics, or of which that is not known.
         keeps_inertia: Whether PyBullet gets the flag that keeps inertias.
     """
 
     readers: frozenset[str]
-    moves: bool = True
+    moving: frozenset[str]
     keeps_inertia: bool = False
 
+    def with_readers(self, readers: frozenset[str]) -> Use:
+        """Return this use by other readers; one that is new may compute dynamics."""
+        return self._replace(
+            readers=readers, moving=(self.moving | readers - self.readers) & readers
+        )
 
-_PLANNER = Use(frozenset(("pinocchio",)), moves=False)
 
-_OF_ROS = frozenset(
-    (
-        *("rclpy", "rospy", "moveit_commander", "moveit", "moveit_msgs", "ament_index_python"),
-        *("launch_ros", "roslib", "rospkg", "roslaunch", "tf2_ros", "sensor_msgs"),
-        *("scenario", "gym_ignition", "gz"),
-    )
-)
-"""Libraries of ROS and Gazebo."""
-
-_OTHER_ENGINES = frozenset(
-    (
-        *("isaacgym", "isaacsim", "isaaclab", "omni", "genesis", "sapien", "mani_skill", "dartpy"),
-        *("raisimpy", "jaxsim", "idyntree", "roboticstoolbox", "chrono", "pychrono", "adam"),
-    )
-)
-"""Libraries of dynamics and simulators, whose behavior few effects describe."""
+_OF_HPP = Use(frozenset(("pinocchio",)), frozenset())
 
 _DESCRIPTIONS_OF_ROS = (b"robot_description", b"xacro")
 """What code with ROS contains that reads a description, if it does not mention URDF."""
@@ -114,21 +64,17 @@ _DESCRIPTIONS_OF_ROS = (b"robot_description", b"xacro")
 _ANY_ENGINE = frozenset(("mujoco", "pybullet", "pinocchio", "drake", "newton", "isaac"))
 """Readers whose effects show what another engine may do."""
 
-_WORDS = frozenset(
-    (
-        *("adam", "chrono", "genesis", "gz", "newton", "omni", "pink", "scenario", "moveit"),
-        *("pyroki", "urchin", "coal", "hpp"),
-    )
-)
-"""Names of libraries that are words too: only where a line imports them."""
-
 _PACKAGING = ("pyproject.toml", "setup.py", "setup.cfg", "PKG-INFO", ".git")
 _IMPORT = re.compile(rb"(?m)^[ \t]*(?:import|from)[ \t]+(\w+)")
 _IMPORT_LINE = re.compile(rb"\b(?:import|from)\b[^\n]*(?:\\\r?\n[^\n]*)*")
-_NAMES = tuple(sorted(name.encode() for name in {*_READERS, *_OTHER_ENGINES, *_OF_ROS} - _WORDS))
+_NAMES = tuple(sorted(name.encode() for name in {*READERS, *OTHER_ENGINES} - WORDS))
+_CALLED = re.compile(
+    rb"\b(?:%s)\b" % b"|".join(re.escape(name.encode()) for name in sorted(NAMES_OF_CALLS))
+)
 _NAMED = re.compile(rb"\b(?:%s)\b" % b"|".join(_NAMES))
 _IMPORT_OF_ROS = re.compile(
-    rb"\b(?:import|from)[ \t]+(?:%s)\b" % b"|".join(sorted(name.encode() for name in _OF_ROS))
+    rb"(?m)^[^\n#]*\b(?:import|from)[ \t]+(?:%s)\b"
+    % b"|".join(sorted(name.encode() for name in OF_ROS))
 )
 _WORD = re.compile(rb"\w+")
 _KEEPS_INERTIA = re.compile(rb"URDF_USE_INERTIA_FROM_FILE|\bflags\s*=\s*[1-9]")
@@ -137,6 +83,7 @@ _FILES = _FOLDERS = 1000
 """Maximum number of files and of folders; of more, none is read. Chosen, no source."""
 
 _OF_URDF = (".urdf", ".xacro")
+_OF_SDF = (".sdf", ".world")
 
 _BYTES = 4 << 20
 """Maximum size of a file of code; of a larger one, nothing is known. Chosen, no source.
@@ -165,15 +112,15 @@ def find_imported_readers(description: Description, targets: frozenset[str]) -> 
         holds_module = below is not None and files.exists(below / "__init__.py")
         below = place
         if is_of_planner(files, place):
-            return _PLANNER
+            return _OF_HPP
         if _is_packaged(files, place, holds_module):
             if read_launch_files(files, place):
                 return None
             imports = _read_imports(files, str(place))
             if imports is None:
                 return None
-            found = imports.of_urdf if description.path.endswith(_OF_URDF) else imports.of_any
-            return found and found._replace(readers=found.readers | targets)
+            found = imports.get_use(description.path)
+            return found and found.with_readers(found.readers | targets)
     return None
 
 
@@ -201,7 +148,7 @@ def is_vendored(files: Workspace, package: Path) -> bool:
 def is_of_planner(files: Workspace, folder: Path) -> bool:
     """Tell whether a folder is that of a package of HPP, a planner without dynamics."""
     manifest = read_optional_file(files, folder / "package.xml")
-    return manifest is not None and bool(_OF_PLANNER.search(blank_comments(manifest.data)))
+    return manifest is not None and bool(_OF_PACKAGE_OF_HPP.search(blank_comments(manifest.data)))
 
 
 def _is_packaged(files: Workspace, folder: Path, holds_module: bool) -> bool:
@@ -227,6 +174,15 @@ class _Imports(NamedTuple):
     of_any: Use | None
     of_urdf: Use
 
+    def get_use(self, path: str) -> Use | None:
+        """Return who uses a description; of SDF, which MuJoCo does not read, None if no reader does."""
+        if path.endswith(_OF_URDF):
+            return self.of_urdf
+        if self.of_any is None or not path.endswith(_OF_SDF):
+            return self.of_any
+        left = self.of_any.readers - {"mujoco"}
+        return self.of_any.with_readers(left) if left else None
+
 
 @memoize_by_workspace
 def _read_imports(files: Workspace, folder: str) -> _Imports | None:
@@ -236,14 +192,12 @@ def _read_imports(files: Workspace, folder: str) -> _Imports | None:
     counts as use, since it may be one. Code with ROS that does not mention URDF, such as the driver
     of a camera, reads no description if other code that imports a reader mentions it.
     """
-    paths = list_code_of(files, folder)
     imported: set[str] = set()
     named: set[str] = set()
     of_urdf: set[str] = set()
-    keeps_inertia = False
-    places_bodies = has_ros = False
-    moved: set[str] = set()
-    for path in paths:
+    called: set[str] = set()
+    keeps_inertia = has_ros = False
+    for path in list_code_of(files, folder):
         try:
             text = files.read_bytes(path, _BYTES)
         except (OSError, UrdftoolError):
@@ -256,36 +210,27 @@ def _read_imports(files: Workspace, folder: str) -> _Imports | None:
         words += (word for line in _IMPORT_LINE.findall(text) for word in _WORD.findall(line))
         mentioned = {word.decode("utf-8", "replace") for word in words}
         is_about_urdf = b"urdf" in text.lower()
-        if mentioned & _OF_ROS:
-            reads = is_about_urdf or _holds_any(text, _DESCRIPTIONS_OF_ROS)
-            if reads and _IMPORT_OF_ROS.search(text):
+        if _IMPORT_OF_ROS.search(text):
+            if is_about_urdf or _holds_any(text, _DESCRIPTIONS_OF_ROS):
                 return None
             has_ros = True
         imported |= own
-        named |= mentioned & {*_READERS, *_OTHER_ENGINES}
+        named |= mentioned & {*READERS, *OTHER_ENGINES, *GYM}
         if is_about_urdf:
-            of_urdf |= {_READERS[name] for name in own & _READERS.keys()}
-        for name in mentioned & _DYNAMICS_OF.keys():
-            if _DYNAMICS_OF[name].search(text):
-                moved.add(name)
-        if _holds_any(text, _DYNAMICS_OF_PYBULLET):
-            moved.add("pybullet")
-        places_bodies = places_bodies or _holds_any(text, _POSES)
-    if _READERS.keys().isdisjoint(imported) or (has_ros and not of_urdf):
+            of_urdf |= {READERS[name] for name in own & READERS.keys()}
+        if _CALLED.search(text):
+            called |= list_names(path, text) & NAMES_OF_CALLS
+    if READERS.keys().isdisjoint(imported) or (has_ros and not of_urdf):
         return None
-    used = named & {*_READERS}
-    readers = {_READERS[name] for name in used}
-    if named & _OTHER_ENGINES:
+    readers = {READERS[name] for name in named & READERS.keys()}
+    moving = find_moving_readers(frozenset(named), frozenset(called))
+    if named & OTHER_ENGINES:
         readers |= _ANY_ENGINE
-    still = set(_WITHOUT_DYNAMICS) - moved
-    still |= {"pinocchio"} - moved
-    if places_bodies and "pybullet" not in moved and not keeps_inertia:
-        still |= {name for name, reader in _READERS.items() if reader == "pybullet"}
-    moves = bool(used - still) or not named.isdisjoint(_OTHER_ENGINES)
-    found = Use(frozenset(readers), moves, keeps_inertia)
-    is_of_mjcf = bool(of_urdf) and "mujoco" not in of_urdf and named.isdisjoint(_OTHER_ENGINES)
-    left = readers - {"mujoco"} if is_of_mjcf else readers
-    return _Imports(None if has_ros else found, found._replace(readers=frozenset(left)))
+        moving |= _ANY_ENGINE
+    found = Use(frozenset(readers), moving, keeps_inertia)
+    is_of_mjcf = bool(of_urdf) and "mujoco" not in of_urdf and named.isdisjoint(OTHER_ENGINES)
+    left = found.readers - {"mujoco"} if is_of_mjcf else found.readers
+    return _Imports(None if has_ros else found, found.with_readers(left))
 
 
 def _holds_any(text: bytes, words: tuple[bytes, ...]) -> bool:

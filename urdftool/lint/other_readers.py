@@ -9,7 +9,8 @@ from ..diagnostic import Severity
 from ..finding import Finding
 from ..model.elements import Robot
 from ..rules.rule import Rule
-from .imported_readers import CHAIN, SCENE, Use
+from .imported_readers import Use
+from .libraries import CHAIN, PLANNER, SCENE, TESSERACT
 
 _KNOWN = frozenset(
     (
@@ -52,38 +53,40 @@ _OF_DRIVES = frozenset(
 )
 """Rules about drives and their limits, which no reader without dynamics takes."""
 
-_OF_SHAPES = {
-    True: ("collision",),
-    False: ("collision", "visual", "mesh", "package"),
+_LEFT_OUT = {
+    TESSERACT: (),
+    PLANNER: (),
+    SCENE: ("collision",),
+    CHAIN: ("collision", "visual", "mesh", "package"),
 }
-"""Families of rules that concern no reader of kinematics, with shapes and without."""
+"""Families of rules that concern no reader of a kind, the kind with most uses first."""
 
 
-def is_for_other_readers(rule: Rule, finding: Finding, used: Use | None) -> bool:
+def is_for_other_readers(rule: Rule, finding: Finding, used: Use) -> bool:
     """Tell whether a finding has effects only on readers that a project does not use.
 
     A project without dynamics uses no inertia and no drive. Readers of kinematics are named by no
     effect: what is wrong with the tree, names and joints concerns them, and shapes only some.
     """
-    if used is None:
-        return False
     if rule.family in _OF_ROS:
         return not _is_affected(rule, finding, used)
-    if not used.moves and _is_of_dynamics(rule):
+    if not used.moving and is_of_dynamics(rule):
         return not any("reject" in text for text in _select_effects(finding, used).values())
     if rule.name == "mesh-not-found" and not _is_affected(rule, finding, used):
         return not any(key.startswith("pybullet") for key in finding.effects)  # found from above
     if rule.family == "name" or not _has_readers(finding) or _is_affected(rule, finding, used):
         return False
-    if CHAIN in used.readers or SCENE in used.readers:
-        if finding.severity is Severity.INFO:
-            return True
-        return _is_of_dynamics(rule) or rule.family in _OF_SHAPES[SCENE in used.readers]
+    for kind, left_out in _LEFT_OUT.items():
+        if kind in used.readers:
+            if finding.severity is Severity.INFO:
+                return True
+            return is_of_dynamics(rule) or rule.family in left_out
     takes_as_written = used.keeps_inertia and rule.family == "inertia" and rule.of_motion
     return not (takes_as_written and "pybullet" in used.readers)
 
 
-def _is_of_dynamics(rule: Rule) -> bool:
+def is_of_dynamics(rule: Rule) -> bool:
+    """Tell whether a rule concerns only readers that compute motion from masses and forces."""
     is_of_mass = rule.family in ("inertia", "simulation") or rule.of_motion
     return is_of_mass or rule.name in _OF_DRIVES
 

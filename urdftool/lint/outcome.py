@@ -42,6 +42,7 @@ class Report:
         unread_meshes: Why a mesh file may not be read, so that it was not checked, by its URI.
         for_other_readers: Number of findings by rule that are left out, because they have effects
             only on readers that the code of the project does not import.
+        about_dynamics: Number of these that are about dynamics, which no code of it computes.
         rows: Rows of the queries on which it depends; None if it is not in a cache.
     """
 
@@ -67,6 +68,7 @@ class Report:
     outside: list[tuple[Finding, str]] = field(default_factory=list)
     unread_meshes: dict[str, str] = field(default_factory=dict)
     for_other_readers: dict[str, int] = field(default_factory=dict)
+    about_dynamics: int = 0
     rows: Sequence[tuple[Any, ...]] | None = field(default=None, compare=False, repr=False)
 
     @property

@@ -35,7 +35,13 @@ from .moot import Rejections
 from .motion import UNUSED_JOINT, WELDED, is_joint_unused, is_link_unused, is_welded_in_mujoco
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .options import Options
-from .other_readers import drop_other_effects, is_for_other_readers, is_of_unmoved_robot, is_used
+from .other_readers import (
+    drop_other_effects,
+    is_for_other_readers,
+    is_of_dynamics,
+    is_of_unmoved_robot,
+    is_used,
+)
 from .outcome import NOT_EXPANDED, Report
 from .placeholders import find_template_error, refuse_template
 from .questions import join_variants, list_questions
@@ -323,9 +329,10 @@ def _check_description(
                         or _is_info_off(rule, finding, settings)
                         or is_of_unmoved_robot(rule, finding, robot)
                     )
-                    if not is_off and is_for_other_readers(rule, finding, used):
+                    if not is_off and used and is_for_other_readers(rule, finding, used):
                         count = report.for_other_readers.get(rule.name, 0)
                         report.for_other_readers[rule.name] = count + 1
+                        report.about_dynamics += not used.moving and is_of_dynamics(rule)
                         is_off = True
                     if is_off:
                         hidden.append(finding)

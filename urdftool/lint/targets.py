@@ -42,12 +42,16 @@ def infer_targets(robot: Robot, description: Description) -> Inference:
     files and other packages count only for a robot with ``<gazebo>`` tags. The package.xml
     distinguishes ROS 1 from ROS 2; without it, a transmission counts for ROS 1. In a Python project
     whose code imports readers and nothing of ROS, and in a package of HPP, elements for ROS and
-    Gazebo and an SRDF are leftovers, as is the package.xml of a copied description.
+    Gazebo and an SRDF are leftovers, as is the package.xml of a copied description; a robot in SDF
+    is for these readers, and for new Gazebo otherwise.
     """
-    if robot.format in TARGETS_OF:
+    if robot.format in TARGETS_OF and robot.format != "sdf":
         return Inference(frozenset(TARGETS_OF[robot.format]))
     signs = Signs(robot, description)
     imported = None if _is_for_ros(signs) else find_imported_readers(description, frozenset())
+    if robot.format == "sdf":
+        named = frozenset() if imported else frozenset(TARGETS_OF["sdf"])
+        return Inference(named, imported=imported.readers if imported else frozenset())
     if imported is not None:
         left = _get_targets(signs.elements) - GENERATIONS - {*ROS}
         return Inference(left, imported=imported.readers)

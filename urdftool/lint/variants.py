@@ -124,6 +124,7 @@ def as_one(reports: Mapping[str, Report]) -> Report:
             rule: max(r.for_other_readers.get(rule, 0) for r in checked.values())
             for rule in sorted({rule for r in checked.values() for rule in r.for_other_readers})
         },
+        about_dynamics=max(report.about_dynamics for report in checked.values()),
     )
 
 

@@ -12,7 +12,7 @@ import click
 from ..control_characters import escape_controls
 from ..diagnostic import Severity
 from ..finding import Finding
-from ..lint.outcome import Outcome
+from ..lint.outcome import Outcome, Report
 from ..rules.table import FIXES
 from .counted import format_count
 from .findings_words import call_lines, format_member_lines, format_message, format_remarks
@@ -192,6 +192,14 @@ def format_severity_counts(findings: Iterable[Finding]) -> str:
     )
 
 
+def _name_readers(reports: Iterable[Report]) -> str:
+    """Name who reads descriptions without a target: what all code imports, or any reader."""
+    used = {report.readers for report in reports}
+    if len(used) != 1 or not all(used):
+        return "any reader of URDF"
+    return f"none; the project uses {', '.join(sorted(used.pop()))}"
+
+
 def summarize(outcome: Outcome) -> str:
     """Summarize a run in one line: counts by severity, files and targets."""
     checked = [report for report in outcome.reports if report.checked]
@@ -202,7 +210,7 @@ def summarize(outcome: Outcome) -> str:
     what = format_severity_counts(outcome.findings) or none
     known = f", {len(outcome.known)} in the baseline" if outcome.known else ""
     hidden = f", {suppressed} ignored by comments" if suppressed else ""
-    names = ", ".join(sorted(targets)) or "any reader of URDF"
+    names = ", ".join(sorted(targets)) or _name_readers(checked)
     overruled = sorted({report.overruled for report in checked} - {""})
     names = "; ".join((names, *overruled))
     where = f" in {format_count(files, 'file')}" if files else ""

@@ -105,13 +105,18 @@ def list_completed(outcome: Outcome) -> Iterator[str]:
 
 
 def list_left_out(outcome: Outcome) -> Iterator[str]:
-    """Yield how many findings are left out, because no reader that they name is imported."""
+    """Yield how many findings are left out, because they concern nothing that the code does."""
     count = sum(outcome.for_other_readers.values())
+    about_dynamics = sum(report.about_dynamics for report in outcome.reports)
+    others = count - about_dynamics
+    reasons = [
+        *[f"{others} with effects only on readers that the project does not use"] * bool(others),
+        *[f"{about_dynamics} about dynamics, which no code here computes"] * bool(about_dynamics),
+    ]
     if count:
         yield (
-            f"{format_count(count, 'finding')} left out, with effects only on readers that the "
-            "project does not use; --extend-select pedantic shows "
-            f"{'it' if count == 1 else 'them'}"
+            f"{format_count(count, 'finding')} left out: {', '.join(reasons)}; "
+            f"--extend-select pedantic shows {'it' if count == 1 else 'them'}"
         )
 
 

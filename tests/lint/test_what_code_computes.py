@@ -1,0 +1,121 @@
+"""Which readers a project computes dynamics with, by the names that its code calls."""
+
+import json
+
+import pytest
+
+from tests.lint.test_imported_readers import ROBOT
+from urdftool.lint.called_names import list_names
+from urdftool.lint.imported_readers import find_imported_readers
+from urdftool.lint.libraries import CHAIN, PLANNER, SCENE, TESSERACT
+from urdftool.source.description import read_description
+
+
+def _find_use(tmp_path, code, name="env.py", ending="urdf"):
+    (tmp_path / "setup.py").write_text("")
+    (tmp_path / name).write_text(code)
+    path = tmp_path / "cart.urdf"
+    path.write_text(ROBOT)
+    description = read_description(path)
+    description.path = str(tmp_path / f"cart.{ending}")
+    return find_imported_readers(description, frozenset())
+
+
+MUJOCO = "import mujoco\nmujoco.mj_forward(model, data)  # urdf\n"
+
+
+@pytest.mark.parametrize(
+    ("code", "moving"),
+    [
+        (MUJOCO, set()),
+        ("import mujoco\n", {"mujoco"}),
+        (f"{MUJOCO}mujoco.mj_step(model, data)\n", {"mujoco"}),
+        (f"{MUJOCO}from mujoco import mj_step as step\nstep(model, data)\n", {"mujoco"}),
+        (f"{MUJOCO}run = getattr(mujoco, 'mj_step')\n", {"mujoco"}),
+        (f"{MUJOCO}mujoco.viewer.launch(model)\n", {"mujoco"}),
+        (f"{MUJOCO}mujoco.viewer.launch_passive(model, data)\nplaywright.launch()\n", set()),
+        (f'{MUJOCO}# mj_step\n"""This does not call mj_step."""\n', set()),
+        (f"{MUJOCO}print mj_step\n", {"mujoco"}),  # Python 2
+        (f"{MUJOCO}import dm_control\n", {"mujoco"}),
+        ("import mink\n", set()),
+        ("import pinocchio, pink\npinocchio.forwardKinematics(m, d, q)\n", set()),
+        ("import placo\nsolver = placo.KinematicsSolver(robot)\n", set()),
+        ("import placo\nsolver = placo.DynamicsSolver(robot)\n", {"pinocchio"}),
+        ("import pydrake\nik = InverseKinematics(plant)\n", set()),
+        ("import pydrake\nik = InverseKinematics(plant)\nSimulator(diagram)\n", {"drake"}),
+        ("import pybullet as p\np.resetJointState(0, 1, 2)\np.stepSimulation()\n", set()),
+        ("import pybullet as p\np.resetJointState(0, 1, 2)\nimport sapien\n", None),
+        ("import tesseract_robotics\n", set()),
+    ],
+)
+def test_dynamics_are_computed_where_a_call_is_seen_or_nothing_is_known(tmp_path, code, moving):
+    use = _find_use(tmp_path, code)
+    assert use.moving == moving if moving is not None else "mujoco" in use.moving
+
+
+def test_a_notebook_calls_what_its_cells_of_code_do(tmp_path):
+    def make(*cells):
+        cells = [{"cell_type": kind, "source": lines} for kind, lines in cells]
+        return json.dumps({"cells": cells})
+
+    _find_use(tmp_path, "import mujoco\n")
+    code = ["%pip install mujoco\n", "import mujoco\n", "mujoco.mj_forward(m, d)\n"]
+    text = make(("markdown", ["mj_step\n"]), ("code", code))
+    assert "mj_forward" in list_names("a.ipynb", text.encode())
+    assert _find_use(tmp_path, text, "a.ipynb").moving == set()
+    text = make(("code", code), ("code", ["!ls\n", "mujoco.mj_step(m, d)"]))
+    assert _find_use(tmp_path, text, "a.ipynb").moving == {"mujoco"}
+    assert "mj_step" in list_names("a.ipynb", b'{"mj_step": ')  # no notebook
+
+
+@pytest.mark.parametrize(
+    ("code", "readers"),
+    [
+        ("import ikpy\n", {CHAIN}),
+        ("import yourdfpy\n", {SCENE}),
+        ("import pyroki\n", {PLANNER}),
+        ("from tesseract_robotics import planning\n", {TESSERACT}),
+    ],
+)
+def test_readers_of_kinematics_by_what_they_take(tmp_path, code, readers):
+    use = _find_use(tmp_path, code)
+    assert use.readers == readers
+    assert not use.moving
+
+
+@pytest.mark.parametrize(
+    ("code", "readers"),
+    [
+        ("import pydrake, mujoco\n", {"drake"}),
+        ("import pybullet\n", {"pybullet"}),
+        ("import mujoco\n", None),
+        ("import pydrake\nimport rclpy\ntext = 'a.urdf'\n", None),
+        ("import pydrake\n# taken from the scenario, and from gz\n", {"drake"}),
+    ],
+)
+def test_a_robot_in_sdf_is_read_by_what_the_code_imports(tmp_path, code, readers):
+    use = _find_use(tmp_path, code, ending="sdf")
+    assert (use and use.readers) == readers
+
+
+def test_the_last_lines_count_what_is_about_dynamics(tmp_path, urdftool):
+    _find_use(tmp_path, "import pink\nimport pinocchio\n")
+    result = urdftool("lint", tmp_path, "--format", "json")
+    assert "2 about dynamics, which no code here computes; --ext" in result.err
+    assert json.loads(result.out)["summary"]["for_other_readers"] == {"placeholder-inertia": 2}
+
+
+SDF = """<sdf version="1.9"><model name="box"><link name="a"><collision name="c"><geometry>
+<box><size>1 1 1</size></box></geometry></collision></link></model></sdf>"""
+
+
+@pytest.mark.parametrize(
+    ("code", "targets"), [("", "gz"), ("import pydrake\n", "none; the project uses drake")]
+)
+def test_sdf_is_for_the_readers_of_the_project(tmp_path, urdftool, code, targets):
+    (tmp_path / "setup.py").write_text("")
+    (tmp_path / "env.py").write_text(code)
+    (tmp_path / "box.sdf").write_text(SDF)
+    result = urdftool("lint", tmp_path / "box.sdf")
+    assert f"(targets: {targets})" in result.err
+    assert ("error: link 'a' has no <inertial>" in result.out) is (not code)
