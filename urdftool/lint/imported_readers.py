@@ -175,7 +175,7 @@ class _Imports(NamedTuple):
     of_urdf: Use
 
     def get_use(self, path: str) -> Use | None:
-        """Return who uses a description; of SDF, which MuJoCo does not read, None if no reader does."""
+        """Return who uses a description; None if no reader does, as MuJoCo none in SDF."""
         if path.endswith(_OF_URDF):
             return self.of_urdf
         if self.of_any is None or not path.endswith(_OF_SDF):
