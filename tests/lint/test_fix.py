@@ -367,7 +367,8 @@ def test_nothing_is_weighed_by_meshes_of_doubtful_size(tmp_path, urdftool):
     package = tmp_path / "cad_arm"
     shutil.copytree(FIXTURES / "cad_arm", package)
     path = package / "urdf" / "cad_arm.urdf"
-    urdftool("lint", "--fix", "--unsafe-fixes", path)
+    more = ("--extend-select", "missing-inertial")  # a robot without any is an info, off by default
+    urdftool("lint", "--fix", "--unsafe-fixes", *more, path)
     robot = load(path)
     assert all(link.inertial.mass < 10 for link in robot.links if link.visuals)
 

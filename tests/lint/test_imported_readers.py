@@ -32,9 +32,15 @@ ROBOT = """<robot name="cart">
 </robot>
 """
 
+INFOS = """[lint.severity]
+dae-as-collision = "info"
+unprefixed-hardware-interface = "info"
+"""  # infos of these rules are off by default
+
 
 def _names(tmp_path, code, mark="setup.py", robot=ROBOT, **options):
     (tmp_path / mark).write_text("")
+    (tmp_path / "urdftool.toml").write_text(INFOS)
     (tmp_path / "env.py").write_text(code)
     folder = tmp_path / "data"
     folder.mkdir(exist_ok=True)

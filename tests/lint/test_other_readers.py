@@ -14,6 +14,11 @@ SRDF = """<robot name="other"><disable_collisions link1="hand" link2="gone" reas
 """
 
 
+def _show_infos(folder, rule):
+    """Show the infos of a rule whose infos are off by default."""
+    (folder / "urdftool.toml").write_text(f'[lint.severity]\n{rule} = "info"\n')
+
+
 def _make_project(tmp_path, code, robot=ROBOT, srdf=""):
     """Make an installed package with a robot in a folder of its module, and return its path."""
     module = tmp_path / "planner"
@@ -143,6 +148,7 @@ def test_a_capsule_is_an_error_where_a_reader_of_the_project_drops_it(tmp_path, 
 )
 def test_a_planner_has_no_drives(tmp_path, code, reported):
     path = _make_project(tmp_path, code, ROBOT.replace('effort="20"', 'effort="20000"'))
+    _show_infos(tmp_path, "implausible-effort")
     assert ("implausible-effort" in _codes(path)) is reported
 
 
@@ -151,4 +157,5 @@ def test_mujoco_reads_urdf_only_if_its_code_mentions_it(tmp_path, mentions, repo
     robot = ROBOT.replace('<box size="0.1 0.1 0.1"/>', '<mesh filename="a.dae"/>')
     path = _make_project(tmp_path, "import pybullet\npybullet.loadURDF('a.urdf')\n", robot)
     (path.parent.parent / "other.py").write_text(f"import mujoco\n{mentions}\n")
+    _show_infos(tmp_path, "dae-as-collision")
     assert ("dae-as-collision" in _codes(path)) is reported

@@ -112,7 +112,8 @@ class Rule:
             parentheses if another case of the same reader differs.
         default: Whether it is enabled without being selected.
         pedantic: Cases that are off by default, as the end of a sentence; empty if there are none.
-        infos: Whether its infos are on by default, where the rule is on.
+        infos: Whether its infos are on by default, where the rule is on: only of rules whose infos
+            readers of real robots found useful (measure/precision).
         needs: Names of the parameters that it requires.
         thresholds: Its thresholds with their defaults.
         group: Scope in which its findings are reported as one; None if each is reported.
@@ -139,7 +140,7 @@ class Rule:
     effects: Mapping[str, str] = field(default_factory=dict)
     default: bool = True
     pedantic: str = ""
-    infos: bool = True
+    infos: bool = False
     needs: tuple[str, ...] = ()
     thresholds: Mapping[str, Any] = field(default_factory=dict)
     group: Scope | None = None
@@ -236,7 +237,7 @@ def rule(
     effects: Mapping[str, str] | None = None,
     default: bool = True,
     pedantic: str = "",
-    infos: bool = True,
+    infos: bool = False,
     group: Scope | None = None,
     caused_by: tuple[str, ...] = (),
     of_motion: bool = False,
@@ -257,7 +258,9 @@ def rule(
             raised=raised or {},
             effects=effects or {},
             default=default,
-            pedantic=pedantic if infos else "; ".join(filter(None, (pedantic, "infos"))),
+            pedantic="; ".join(filter(None, (pedantic, "infos")))
+            if severity is INFO and not infos
+            else pedantic,
             infos=infos,
             needs=code.co_varnames[: code.co_argcount],
             thresholds=check.__kwdefaults__ or {},

@@ -103,7 +103,6 @@ _SHORTEST = 8
         "pybullet (concave)": "uses its triangles for contact, because the collision is concave",
     },
     pedantic="objects and scenes, which have no moving joint",
-    infos=False,
 )
 def visual_mesh_as_collision(
     robot: Robot, description: Description, targets: frozenset[str], *, dense: float = _DENSE
@@ -274,6 +273,7 @@ def collision_much_larger_than_visual(
     },
     group="robot",
     formats=ANY_FORMAT,
+    infos=True,
 )
 def collision_much_smaller_than_visual(
     robot: Robot, *, ratio: float = 4.0, speck: float = 0.002

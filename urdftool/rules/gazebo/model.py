@@ -273,6 +273,7 @@ def _has_gazebo_part(description: Description) -> bool:
     effects={
         "gz, gazebo-classic": "load the robot as a free body",
     },
+    infos=True,
 )
 def root_not_anchored(robot: Robot) -> Iterator[Problem]:
     """A robot without wheels and legs is not fixed to the world.

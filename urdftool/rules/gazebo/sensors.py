@@ -187,7 +187,6 @@ def write_topic(problem: Problem, context: FixContext) -> Proposal | None:
     effects={
         "gz": "stamps the data with the scoped name of the sensor, which is not a TF frame",
     },
-    infos=False,
 )
 def missing_gz_frame_id(
     robot: Robot, targets: frozenset[str], guessed: frozenset[str], *, together: float = 4

@@ -42,7 +42,6 @@ _GRAY = 0.06
         "gz, gazebo-classic": "take a friction of 1, the default of SDF",
     },
     group="robot",
-    infos=False,
 )
 def missing_gazebo_tags(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A caster has no ``<gazebo>`` block although it needs one.

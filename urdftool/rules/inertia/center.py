@@ -39,6 +39,7 @@ from .tensors import is_zero
     group="robot",
     caused_by=(*SIZE_IN_DOUBT, "placeholder-inertia", "zero-inertia"),
     formats=ANY_FORMAT,
+    infos=True,
 )
 def com_outside_geometry(
     robot: Robot,

@@ -237,6 +237,7 @@ negative_mass.fix(UNSAFE)(remove_sign)
     of_motion=True,
     group="robot",
     formats=URDF_AND_SDF,
+    infos=True,
 )
 def implausible_mass(
     robot: Robot, *, heaviest: float = 1000.0, lightest: float = 1e-5

@@ -37,6 +37,7 @@ _CHECKING = "gz, gazebo-classic, mujoco, drake"
         *("inertia-triangle-inequality", "inertia-not-positive-definite"),
     ),
     formats=ANY_FORMAT,
+    infos=True,
 )
 def left_right_asymmetry(
     robot: Robot,
@@ -248,6 +249,7 @@ def _spread(link: Link) -> float:
     WARNING,
     effects={"mujoco, pybullet, pinocchio": "take it as written"},
     formats=ANY_FORMAT,
+    infos=True,
 )
 def com_not_mirrored(
     robot: Robot,

@@ -51,6 +51,7 @@ _CENTER = ("com-outside-geometry", "inertial-not-at-com-suspect")
     group="robot",
     of_motion=True,
     formats=ANY_FORMAT,
+    infos=True,
 )
 def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem]:
     """An inertia is the same power of ten about every axis, such as 1 or 1e-3.
@@ -205,6 +206,7 @@ def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     group="robot",
     formats=ANY_FORMAT,
     pedantic="meshes that would have to be less than 2 times as long, and identified values",
+    infos=True,
 )
 def inertia_exceeds_geometry(
     robot: Robot,
@@ -354,6 +356,7 @@ def write_inertia_that_fits(problem: Problem, context: FixContext) -> Proposal |
         *("inertia-triangle-inequality", "singular-inertia"),
     ),
     formats=ANY_FORMAT,
+    infos=True,
 )
 def inertia_below_geometry(
     robot: Robot, *, least: float = 0.12, part: float = 0.1

@@ -215,7 +215,6 @@ def enlarge_moments(problem: Problem, context: FixContext) -> Proposal | None:
     of_motion=True,
     group="robot",
     formats=ANY_FORMAT,
-    infos=False,
 )
 def zero_inertia(
     robot: Robot, targets: frozenset[str], *, part: float = 0.25, first: float = 0.1

@@ -162,6 +162,7 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
     },
     of_motion=True,
     group="robot",
+    infos=True,
 )
 def implausible_velocity(
     robot: Robot, *, fastest_turn: float = 200.0, fastest_slide: float = 50.0, together: float = 4

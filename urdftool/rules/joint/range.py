@@ -187,6 +187,7 @@ def make_fixed(problem: Problem, context: FixContext) -> Proposal | None:
         ),
     },
     formats=ANY_FORMAT,
+    infos=True,
 )
 def limit_in_degrees(robot: Robot, *, largest: float = 4 * math.pi) -> Iterator[Problem]:
     """A limit of a revolute joint is larger than two turns.

@@ -169,6 +169,7 @@ def clamp_soft_limits(problem: Problem, context: FixContext) -> Proposal | None:
         "moveit": "plans within the soft limits (from its source, robot_model.cpp)",
         "mujoco, pybullet, pinocchio, drake": "ignore them",
     },
+    infos=True,
 )
 def soft_limits_far_inside(
     robot: Robot, targets: frozenset[str], *, part: float = 0.5

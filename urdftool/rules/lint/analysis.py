@@ -18,7 +18,7 @@ APPLIES_TO = ("mesh", "collision", "joint")
 _READ = (".stl", ".obj", ".dae", ".ply", ".gltf", ".glb")
 
 
-@rule(INFO)
+@rule(INFO, infos=True)
 def analysis_incomplete(robot: Robot, description: Description) -> Iterator[Problem]:
     """A check was not done in full: a mesh is unreadable, or the robot has too many links.
 

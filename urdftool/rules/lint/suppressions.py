@@ -53,7 +53,7 @@ def write_suggested_rule(finding: Finding, context: FixContext) -> Proposal | No
     return write_inside(finding, finding.data["name"], right) if right else None
 
 
-@rule(INFO)
+@rule(INFO, infos=True)
 def renamed_rule() -> tuple[Problem, ...]:
     """A comment names a rule by its old name.
 

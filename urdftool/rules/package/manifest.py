@@ -291,6 +291,7 @@ def install_directory(problem: Problem, context: FixContext) -> Proposal | None:
     effects={
         "gz, gazebo-classic": "look for model://NAME/…, which requires an exported path",
     },
+    infos=True,
 )
 def gazebo_path_not_exported(
     robot: Robot, description: Description, targets: frozenset[str]

@@ -89,6 +89,7 @@ def write_version(problem: Problem, context: FixContext) -> Proposal | None:
     ERROR,
     effects=_FEATURE_EFFECTS,
     group="robot",
+    infos=True,
 )
 def feature_needs_newer_version(robot: Robot) -> Iterator[Problem]:
     """The robot has a feature of a later URDF version.
@@ -198,6 +199,7 @@ def keep_rpy(problem: Problem, context: FixContext) -> Proposal | None:
     INFO,
     on=("ros2",),
     effects={"ros2 run … -p robot_description:=…": "stops: couldn't parse parameter override rule"},
+    infos=True,
 )
 def colon_space_in_comment(document: Document, description: Description) -> Iterator[Problem]:
     """A comment contains a colon with a space or line end after it.

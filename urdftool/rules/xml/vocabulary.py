@@ -113,7 +113,6 @@ _UNITS = ("unit", "units")
         ),
     },
     group="repository",
-    infos=False,
 )
 def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]:
     """An element is not in URDF at this place.
@@ -236,7 +235,6 @@ def write_known_element(problem: Problem, context: FixContext) -> Proposal | Non
     effects=_ATTRIBUTE_EFFECTS,
     group="robot",
     pedantic=f"additional parameters of a <dynamics> that has {' and '.join(RESISTANCE_OF_URDF)}",
-    infos=False,
 )
 def unknown_attribute(robot: Robot) -> Iterator[Problem]:
     """An attribute is not in URDF for this element.
