@@ -205,7 +205,7 @@ def test_html_begins_with_errors_and_names_files_by_relative_paths(lint, write, 
         '<joint name="j" type="continuous"><parent link="a"/><child link="b"/>'
         '<axis xyz="0 0 0"/></joint></robot>',
     )
-    page = lint("html", path).out
+    page = lint("html", path, "--extend-select", "pedantic").out
     levels = re.findall(r'<article class="(\w+)"', page)
     assert set(levels) >= {"error", "info"}
     assert levels == sorted(levels, key=["error", "warning", "info"].index)

@@ -136,6 +136,8 @@ def test_a_parameter_with_a_name_of_xacro_is_told_once_and_where_it_is_declared(
 </xacro:macro>
 <xacro:bar name="a" len="1"/>
 <xacro:bar name="b" len="2"/>"""
+    config = '[lint.severity]\nshadowed-builtin = "info"\n'  # off by default, as an info
+    (tmp_path / "urdftool.toml").write_text(config)
     (found,) = _found(tmp_path, robot, "shadowed-builtin", "robot.urdf.xacro")
     assert (found.location.line, found.location.column) == (2, 25)
 

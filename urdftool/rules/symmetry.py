@@ -167,6 +167,25 @@ class Sides:
             for axis in range(3)
         )
 
+    def is_image_of_sibling(self, robot: Robot, pair: Pair) -> bool:
+        """Tell whether the right joint is the mirror image of a sibling of the left one.
+
+        The fingers of a gripper that is mounted on both arms are: its left finger is on the outer
+        side of one arm, and on the inner side of the other.
+        """
+        left, right = pair.left_joint, pair.right_joint
+        if left.parent == right.parent:
+            return False
+        normal = 1 if self.normal is None else self.normal
+        return any(
+            (steps := self._compute_offsets(Pair(link, pair.right, sibling, right))) is not None
+            and _compute_gap(pair, *steps, normal) <= _compute_tolerance(steps[0])
+            for sibling in robot.tree.get_child_joints(left.parent)
+            if sibling is not left
+            and sibling.type == left.type
+            and (link := robot.link.get(sibling.child)) is not None
+        )
+
     def is_taken_back(self, pair: Pair) -> bool:
         """Tell whether the next joints of a displaced pair are mirror images again."""
         return any(

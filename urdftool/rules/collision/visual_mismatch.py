@@ -19,7 +19,6 @@ from ..rule import (
     ERROR,
     GAZEBO,
     INFO,
-    ROS,
     UNSAFE,
     URDF_AND_SDF,
     WARNING,
@@ -87,8 +86,8 @@ def _count_triangles(use: MeshUse) -> int:
 _DENSE = 5000
 """Triangles above which a mesh costs time in contacts. Chosen, no source."""
 
-_OF_TRIANGLES = frozenset(("moveit", *ROS, *GAZEBO))
-"""Targets that collide the triangles of a mesh; robots for ROS are planned with MoveIt."""
+_OF_TRIANGLES = frozenset(("moveit", *GAZEBO))
+"""Targets that collide the triangles of a mesh."""
 
 _SHORTEST = 8
 """Bytes of ``f 1 2 3`` and a newline, by definition the shortest face of an OBJ file."""
@@ -212,7 +211,7 @@ def collision_mesh_too_dense(
         "gz, gazebo-classic, mujoco, pybullet": "use the collision geometry as written",
     },
     formats=ANY_FORMAT,
-    pedantic="less than 2.5 times as long, unless a radius is a diameter",
+    pedantic="less than 3.5 times as long, unless a radius is a diameter",
 )
 def collision_much_larger_than_visual(
     robot: Robot, description: Description, *, ratio: float = 2.0, least: float = 0.1

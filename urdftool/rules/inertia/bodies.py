@@ -39,6 +39,18 @@ def _find_rigid_bodies(robot: Robot) -> dict[str, list[Link]]:
     return found
 
 
+def is_only_sliding(robot: Robot, link: Link) -> bool:
+    """Tell whether no joint between the link ``world`` and a link rotates it."""
+    name, seen = link.name, set[str]()
+    while name != "world" and name not in seen:
+        seen.add(name)
+        joint = robot.tree.get_parent_joint(name)
+        if joint is None or joint.type not in ("fixed", "prismatic"):
+            return False
+        name = joint.parent
+    return name == "world"
+
+
 def find_massless_pairs(robot: Robot) -> Iterator[tuple[Link, Link]]:
     """List links without mass that sdformat 12.3 lumps, each with the link it is lumped into.
 

@@ -21,9 +21,10 @@ from ..fix import (
 )
 from ..mesh.link_extents import get_extents
 from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
-from .bodies import LIGHT, find_negligible_links
+from .bodies import LIGHT, find_negligible_links, is_only_sliding
 from .corrections import MASS_IN_DOUBT, write_tensor
 from .frame import compute_tensor_about_center, has_mesh
+from .identified import is_identified
 from .proposals import format_tensor
 from .size import SIZE_IN_DOUBT, is_placeholder
 from .solids import compute_box, compute_solid_center
@@ -40,6 +41,7 @@ from .tensors import is_zero
     caused_by=(*SIZE_IN_DOUBT, "placeholder-inertia", "zero-inertia"),
     formats=ANY_FORMAT,
     infos=True,
+    pedantic="published parameters of an arm, and meshes of less than 5 g",
 )
 def com_outside_geometry(
     robot: Robot,
@@ -60,7 +62,9 @@ def com_outside_geometry(
     diagonal, and an info before that. More than ``together`` infos are reported as one finding.
     The geometry of attached links without a mass of their own counts too. Links with less than
     ``light`` of the robot's mass, or ten times that part of the mass of their rigid body, hardly
-    influence it, and are skipped; those that a joint moves, up to ``far`` times the diagonal.
+    influence it, and are skipped; those that a joint moves, up to ``far`` times the diagonal. So
+    are links that only slide relative to the world. The published parameters of Franka's arms are
+    right together, not for each link, and off by default.
     """
     remarks: list[tuple[Link, Misfit, list[str]]] = []
     reach = get_extents(robot)
@@ -68,6 +72,8 @@ def com_outside_geometry(
     for link in robot.links:
         inertial = link.inertial
         if inertial is None or not inertial.mass or _has_gltf(link):
+            continue
+        if is_only_sliding(robot, link):
             continue
         box = reach.get_link_box(link)
         if box is None:
@@ -102,6 +108,10 @@ def com_outside_geometry(
     yield from (_report_outside(*one, also) for one in remarks)
 
 
+_OF_GRAMS = 0.005
+"""Mass [kg] of a body whose center of mass matters little. Chosen, no source."""
+
+
 def _is_moved(robot: Robot, link: Link) -> bool:
     joint = robot.tree.get_parent_joint(link.name)
     return joint is not None and not joint.is_fixed
@@ -114,6 +124,7 @@ def _report_outside(link: Link, found: Misfit, attached: Sequence[str], also: st
         at=(link.inertial and link.inertial.origin) or link.inertial,
         severity=None if found.certain else INFO,
         alike=(found.axis, min(len(attached), 3), bool(also)),
+        pedantic=is_identified(link) or (not found.certain and link.mass < _OF_GRAMS),
         data={"distance": found.amount, "axis": "xyz"[found.axis]},
     )
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ...model.attached import find_attached_links, is_fixed_to_world
-from ...model.bounds import Bounds
+from ...model.bounds import Bounds, compute_size
 from ...model.elements import Link, Robot
 from ...model.millimeters import find_shapes_in_millimeters
 from ...source.location import Place
@@ -287,6 +287,7 @@ def implausible_mass(
         *("collision-much-larger-than-visual", "mass-outlier"),
     ),
     formats=ANY_FORMAT,
+    pedantic="light boxes of 1 × 1 × 1 m, which code scales",
 )
 def implausible_density(
     robot: Robot,
@@ -418,8 +419,15 @@ def _report_density(found: _Density, also: str = "") -> Problem:
         at=found.place,
         severity=WARNING if found.impossible else INFO,
         alike=(found.in_box, bool(also)),
+        pedantic=not found.too_heavy and _is_unit_box(link),
         data={"mass": link.mass, "density": found.density, "is_too_large": found.too_heavy},
     )
+
+
+def _is_unit_box(link: Link) -> bool:
+    """Tell whether each shape of a link is a box of 1 m, which code scales when it loads it."""
+    shapes = [shape.geometry for shape in (*link.visuals, *link.collisions)]
+    return all(compute_size(shape) == (1.0, 1.0, 1.0) for shape in shapes)
 
 
 def _is_fixed(robot: Robot, link: Link) -> bool:

@@ -16,7 +16,7 @@ from ..fix import FixContext, Proposal
 from ..mesh.link_extents import get_extents
 from ..rule import ANY_FORMAT, INFO, UNSAFE, WARNING, Problem, rule
 from ..tree.mounted import is_base_of_arm
-from .bodies import find_rigid_bodies, find_slight_parts
+from .bodies import find_rigid_bodies, find_slight_parts, is_only_sliding
 from .corrections import (
     MASS_IN_DOUBT,
     correct_slip,
@@ -27,6 +27,7 @@ from .corrections import (
 )
 from .density import find_outliers
 from .frame import compute_tensor_about_com, find_exchange, has_mesh
+from .identified import is_identified
 from .known_size import measure_known_size
 from .proposals import describe_remedy, get_recompute_hint, get_remedy_kind
 from .solids import compute_solid_moments, describe_solid, is_dummy
@@ -69,7 +70,7 @@ def placeholder_inertia(robot: Robot, *, tiny: float = 0.02) -> Iterator[Problem
     for link, inertial, six in get_tensors(robot):
         if not is_placeholder(link, six) or link.mass < 0 or link.name in slight:
             continue  # negative-mass reports the mass
-        if is_base_of_arm(robot, link) or _is_only_sliding(robot, link):
+        if is_base_of_arm(robot, link) or is_only_sliding(robot, link):
             continue
         moment = six[0]
         if is_last_decimal(robot, moment) and _may_round(robot, link, moment):
@@ -149,18 +150,6 @@ def _may_round(robot: Robot, link: Link, moment: float) -> bool:
     return moment / _ROUNDED <= largest <= moment * _ROUNDED
 
 
-def _is_only_sliding(robot: Robot, link: Link) -> bool:
-    """Tell whether no joint between the link ``world`` and a link rotates it."""
-    name, seen = link.name, set[str]()
-    while name != "world" and name not in seen:
-        seen.add(name)
-        joint = robot.tree.get_parent_joint(name)
-        if joint is None or joint.type not in ("fixed", "prismatic"):
-            return False
-        name = joint.parent
-    return name == "world"
-
-
 def _is_frame(robot: Robot, link: Link, body: list[Link], tiny: float) -> bool:
     """Tell whether a link is a frame: without geometry, or tiny and part of a heavier body."""
     if not link.visuals and not link.collisions:
@@ -205,7 +194,8 @@ def write_inertia(problem: Problem, context: FixContext) -> Proposal | None:
     of_motion=True,
     group="robot",
     formats=ANY_FORMAT,
-    pedantic="meshes that would have to be less than 2 times as long, and identified values",
+    pedantic="meshes, and bodies of less than 10 g, that would have to be less than 2 times as "
+    "long, and identified values",
     infos=True,
 )
 def inertia_exceeds_geometry(
@@ -231,8 +221,9 @@ def inertia_exceeds_geometry(
 
     It is an info, and off by default, if two or more links have such a tensor, with all six numbers
     and less than 5 times too long: identification by measured torques gives values that are right
-    together, not for each link. A mesh that would have to be less than 2 times as long is off by
-    default, too.
+    together, not for each link. The published numbers of Franka's arms are off by default, too, and
+    so are a mesh, and a body of a few grams whose inertia is rounded, that would have to be less
+    than 2 times as long. Links that only slide relative to the world do not turn.
     """
     found = list(_find_large_inertias(robot, allowed, rounding, certain))
     if sum(_is_like_identified(problem) for problem in found) >= _IDENTIFIED:
@@ -240,6 +231,9 @@ def inertia_exceeds_geometry(
             problem.severity, problem.pedantic = INFO, True
     yield from found
 
+
+_OF_GRAMS = 0.01
+"""Mass [kg] of a body whose moments are mostly rounded to 1e-6 kg·m². Chosen, no source."""
 
 _IDENTIFIED = 2
 """Number of links from which large tensors of a robot may be identified. Chosen, no source."""
@@ -259,7 +253,7 @@ def _find_large_inertias(
     for link, inertial, six in get_tensors(robot):
         if link.mass <= 0 or is_placeholder(link, six) or not is_positive(six):
             continue
-        if link.name in slight:
+        if link.name in slight or is_only_sliding(robot, link):
             continue
         low, middle, high = compute_principal_moments(six)
         if low + middle < high:
@@ -308,7 +302,9 @@ def _find_large_inertias(
                     "is_full": _is_full(tensor),
                     "exchanged": exchanged,
                 },
-                pedantic=not found.certain and not exchanged and SHORTEST <= found.amount < 2,
+                pedantic=is_identified(link)
+                or (found.amount < 2 and link.mass < _OF_GRAMS)
+                or (not found.certain and not exchanged and SHORTEST <= found.amount < 2),
             )
 
 

@@ -49,8 +49,8 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
     a transmission, ros2_control or a plugin drives other joints and not this one: it is passive,
     and 0 is correct. ``locked-by-limits`` reports a joint whose lower and upper limit are equal.
     A joint named as a dummy that moves neither geometry nor more than 1 g is not reported. Unless
-    new Gazebo is a target, the finding is an info where no joint has a limit of effort or velocity,
-    as an exporter writes them, and where the joints of both sides have none, but most others have.
+    new Gazebo is a target, the finding is an info where no joint has a limit of effort, as an
+    exporter writes them, and where the joints of both sides have none, but most others have.
     """
     passive = "gz" not in targets and (is_for_another_reader(robot.xml) or _are_meant(robot))
     actuated = find_actuated_joints(robot)
@@ -72,7 +72,7 @@ def zero_effort_limit(robot: Robot, targets: frozenset[str]) -> Iterator[Problem
 def _are_meant(robot: Robot) -> bool:
     """Tell whether limits of 0 are of all joints of a robot, or of pairs of passive joints."""
     driven = list(_iterate_driven(robot))
-    if not any(limit.effort or limit.velocity for _, limit in driven):
+    if not any(limit.effort for _, limit in driven):
         return True
     none = {joint.name for joint, limit in driven if limit.effort == 0.0}
     twins = {name: find_twins(name, robot.joint) for name in none}

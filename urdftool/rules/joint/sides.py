@@ -30,7 +30,8 @@ def joint_not_mirrored(robot: Robot, *, small: float = 0.01) -> Iterator[Problem
     joints that move, of robots where most pairs are symmetric. Only the first displaced joint of a
     limb is reported. Limbs whose joints have the same ``<origin>`` on both sides are copies, and
     not reported, neither is a displacement that the next joint takes back, or that takes back one,
-    nor two joints of one link that are mirror images in its own frame, as in a turned gripper.
+    nor two joints of one link that are mirror images in its own frame, as in a turned gripper, nor
+    a joint that is the mirror image of a sibling of the other: a gripper that is mounted twice.
     Up to ``small`` [m] it is an info.
     """
     sides = get_sides(robot)
@@ -38,7 +39,7 @@ def joint_not_mirrored(robot: Robot, *, small: float = 0.01) -> Iterator[Problem
         right = pair.right_joint
         if right.is_fixed or sides.is_taken_back(pair) or sides.is_mirrored_in_root(pair):
             continue
-        if sides.is_mirrored_in_parent(pair):
+        if sides.is_mirrored_in_parent(pair) or sides.is_image_of_sibling(robot, pair):
             continue
         if right.parent != pair.left_joint.parent and _has_the_same_origin(pair):
             continue
@@ -56,7 +57,14 @@ def _has_the_same_origin(pair: Pair) -> bool:
     one, other = pair.left_joint.origin, pair.right_joint.origin
     if one is None or other is None:
         return one is other
-    return (one.xyz, one.rpy) == (other.xyz, other.rpy)
+    return all(
+        math.isclose(a, b, abs_tol=_ROUNDED)
+        for a, b in zip((*one.xyz, *one.rpy), (*other.xyz, *other.rpy), strict=True)
+    )
+
+
+_ROUNDED = 1e-5
+"""Difference [m or rad] of two numbers that an exporter rounded differently. Chosen, no source."""
 
 
 @rule(
@@ -67,6 +75,7 @@ def _has_the_same_origin(pair: Pair) -> bool:
         ),
     },
     pedantic="ranges of equal width, which differ in where the zero is",
+    infos=True,
     formats=ANY_FORMAT,
 )
 def limits_not_mirrored(

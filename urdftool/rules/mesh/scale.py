@@ -86,7 +86,7 @@ def _compute_largest(use: MeshUse, whole: bool = False) -> float | None:
 
 
 @rule(
-    ERROR,
+    WARNING,
     effects={
         "mujoco, pybullet, pinocchio": "take the numbers of the file as meters",
     },

@@ -30,11 +30,13 @@ def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterat
     ``<disable_collisions>``, reports the start state in collision, and plans nothing. MoveIt
     compares the triangles of meshes, so links whose convex hulls overlap while their surfaces are
     apart are not reported. If a mesh cannot be read as triangles, or has too many, the overlap of
-    the hulls is an info.
+    the hulls is an info. A pair that the SRDF disables under names with a prefix that the robot
+    does not have is ``srdf-unknown-link``.
     """
     for document in get_srdf_documents(robot, description):
         content = read_semantic(document.root)
         disabled = {pair.links for pair in content.list_disabled(robot.link)}
+        unknown = [pair for pair in disabled if not pair <= robot.link.keys()]
         known = get_convex_bodies(robot)
 
         def may_touch(one: Link, other: Link) -> bool:
@@ -48,8 +50,14 @@ def adjacent_pair_not_disabled(robot: Robot, description: Description) -> Iterat
             if deepest is None:
                 continue
             link, above, _ = deepest
-            if frozenset((link.name, above.name)) not in disabled:
+            ends = (link.name, above.name)
+            if frozenset(ends) not in disabled and not _is_prefixed(ends, unknown):
                 yield _report_pair(robot, document, joint, above, link)
+
+
+def _is_prefixed(ends: tuple[str, str], unknown: list[frozenset[str]]) -> bool:
+    """Tell whether a pair of links is disabled under names with another beginning."""
+    return any(all(any(name.endswith(end) for name in pair) for end in ends) for pair in unknown)
 
 
 def _report_pair(

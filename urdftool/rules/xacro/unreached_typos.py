@@ -15,7 +15,7 @@ from ...source.description import Description
 from ...source.document import Document, Element
 from ...source.location import Place
 from ..rule import ERROR, Problem, rule
-from ..xml.vocabulary_table import suggest_word
+from ..xml.vocabulary_table import is_zero_default, suggest_word
 from .definitions import get_macro_names
 
 _EXPRESSION = re.compile(r"(?<!\$)(?:\$\$)*\$\{([^}]+)\}")
@@ -151,6 +151,8 @@ def _find_bad_names(element: Element) -> Iterator[_Typo]:
     for name in element.attributes.keys() - {*names, *DIALECT_ATTRIBUTES.get(element.tag, ())}:
         word = suggest_word(name, free)
         if word is not None and word != name:
+            if is_zero_default(element.tag, word, element.attributes[name]):
+                continue
             message = f"<{element.tag}> has the unknown attribute '{name}'; write {word}"
             yield _Typo(element, element.locate_attribute(name), message)
     kind = element.get("type") or ""

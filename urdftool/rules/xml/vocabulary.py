@@ -27,7 +27,7 @@ from ..rule import BOTH, ERROR, INFO, WARNING, Problem, rule, select_holding
 from ..xacro.definitions import get_macro_names
 from .from_sdf import propose_urdf_spelling
 from .owner import describe_owner
-from .vocabulary_table import ELEMENT_REMEDIES, get_census, suggest_word
+from .vocabulary_table import ELEMENT_REMEDIES, get_census, is_zero_default, suggest_word
 
 _HARMLESS = frozenset((("collision", "material"),))
 """Elements that readers ignore without a loss. They are not reported."""
@@ -241,10 +241,10 @@ def unknown_attribute(robot: Robot) -> Iterator[Problem]:
 
     Readers ignore it without a message, and take the default of the intended attribute: a
     misspelled ``uper`` makes the upper limit 0, and a cylinder with ``height`` has no length. An
-    unknown attribute whose value is 0 is not reported, because it has no effect. An attribute for a
-    different program is an info if the element has all required attributes, such as an additional
-    parameter of a ``<dynamics>`` or a ``<limit>``. An attribute that names units is a warning:
-    numbers are in m, kg, s and rad.
+    unknown attribute whose value is 0 is not reported, because it has no effect; a misspelled one
+    is an info if its value is the default. An attribute for a different program is an info if the
+    element has all required attributes, such as an additional parameter of a ``<dynamics>`` or a
+    ``<limit>``. An attribute that names units is a warning: numbers are in m, kg, s and rad.
     """
     nothing: frozenset[str] = frozenset()
     other: dict[tuple[str, tuple[str, ...], Severity], list[Element]] = {}
@@ -342,11 +342,24 @@ def _report_misspelled_attributes(element: Element, known: set[str]) -> Iterator
                 at=at,
                 data={"write": word},
                 alike=(element.tag, word),
-                severity=WARNING if kind in _OTHER_NAMES else ERROR,
+                severity=_get_severity(element, name, word),
                 effects=select_holding(
                     _ATTRIBUTE_EFFECTS, *["one with a default is meant"] * has_default
                 ),
             )
+
+
+def _get_severity(element: Element, name: str, word: str) -> Severity:
+    """Get the severity of a misspelled attribute: an info if it has the value that is the default.
+
+    Args:
+        element: The element.
+        name: Name as written.
+        word: Name that is meant.
+    """
+    if is_zero_default(element.tag, word, element.attributes[name]):
+        return INFO
+    return WARNING if (element.tag, name) in _OTHER_NAMES else ERROR
 
 
 @unknown_attribute.fix(BOTH, reveals=True)

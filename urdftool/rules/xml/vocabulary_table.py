@@ -12,6 +12,11 @@ from ...source.document import Element
 
 _WRITE_DYNAMICS = "write <dynamics " + " ".join(f'{name}="…"' for name in RESISTANCE_OF_URDF) + "/>"
 
+_ZERO_BY_DEFAULT = frozenset(
+    (("origin", "xyz"), ("origin", "rpy"), ("limit", "lower"), ("limit", "upper"))
+)
+"""Attributes, with their element, whose default is 0."""
+
 ELEMENT_REMEDIES = {
     ("robot", "inertial"): "write it inside a <link>",
     ("robot", "visual"): "write it inside a <link>",
@@ -175,3 +180,14 @@ def find_misspelled_children(element: Element | None) -> dict[str, str]:
     strange = {c.tag for c in element.children if c.tag not in known and ":" not in c.tag}
     strange -= DIALECTS.get(element.tag, frozenset())
     return {tag: word for tag in strange if (word := suggest_word(tag, known))}
+
+
+def is_zero_default(tag: str, word: str, text: str) -> bool:
+    """Tell whether a text is the default of an attribute that is 0 by default.
+
+    Args:
+        tag: Tag of the element.
+        word: Name of the attribute that is meant.
+        text: Value as written.
+    """
+    return (tag, word) in _ZERO_BY_DEFAULT and set(text) <= set("+-0. ")
