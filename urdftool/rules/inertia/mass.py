@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.bounds import Bounds, compute_size
-from ...model.elements import Link, Robot
+from ...model.elements import Collision, Link, Robot, Visual
 from ...model.millimeters import find_shapes_in_millimeters
 from ...source.location import Place
 from ..fix import remove_sign
@@ -426,8 +426,8 @@ def _report_density(found: _Density, also: str = "") -> Problem:
 
 def _is_unit_box(link: Link) -> bool:
     """Tell whether each shape of a link is a box of 1 m, which code scales when it loads it."""
-    shapes = [shape.geometry for shape in (*link.visuals, *link.collisions)]
-    return all(compute_size(shape) == (1.0, 1.0, 1.0) for shape in shapes)
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    return all(compute_size(shape.geometry) == (1.0, 1.0, 1.0) for shape in shapes)
 
 
 def _is_fixed(robot: Robot, link: Link) -> bool:
