@@ -165,3 +165,34 @@ def test_a_slide_without_limits_compiles(tmp_path):
     (tmp_path / "a.sdf").write_text(SLIDER.format(""))
     written = api.export_mjcf(api.load(tmp_path / "a.sdf"), tmp_path / "m", verify=True)
     assert "inheritrange" not in written.text
+
+
+BALL = 'type="ball" damping="0.1" frictionloss="0.02"'
+PLANAR = (
+    '<robot name="p"><link name="a"/><link name="b"/><joint name="j" type="planar"><parent '
+    'link="a"/><child link="b"/><axis xyz="0 0 1"/><dynamics damping="0.3"/></joint></robot>'
+)
+
+
+@pytest.mark.library("pxr")
+@pytest.mark.parametrize("kind", ["sdf", "usd", "urdf"])
+def test_lost_resistance_of_a_ball_joint_is_reported(kind, urdftool, write, tmp_path):
+    body = f'<body name="a">{BOX}<body name="b"><joint name="j" {BALL}/>{BOX}</body></body>'
+    out = tmp_path / "out"
+    result = urdftool("export", kind, write("m.xml", mjcf(body)), "-o", out, "--verify")
+    assert result.code == 0, result.out
+    (line,) = (line for line in result.err.splitlines() if "friction" in line)
+    assert "damping" in line
+    assert "'j'" in line
+
+
+@pytest.mark.library("pxr")
+def test_resistance_of_a_planar_joint_is_written_or_reported(write, tmp_path):
+    robot = api.load(write("p.urdf", PLANAR))
+    written = api.export_usd(robot, tmp_path / "p.usda", verify=True)
+    assert differing(written) == {}
+    assert "lossy-joint-resistance" in {loss.code for loss in written.losses}
+    again = api.load(write("p.sdf", api.export_sdf(robot).text))
+    assert {j.name: j.get_resistance("damping") for j in again.joints if j.has_axis} == {
+        "j_x": 0.3, "j_y": 0.3, "j": 0.3,
+    }  # fmt: skip

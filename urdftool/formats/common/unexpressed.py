@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ...diagnostic import Severity
 from ...model.appearance import APPEARANCE, find_unknown_script
 from ...model.blocks import list_unread_elements
-from ...model.elements import BALL_TYPES, Link, Material, Mesh, Robot, Visual
+from ...model.elements import BALL_TYPES, Joint, Link, Material, Mesh, Robot, Visual
 from ...model.materials import find_shown_material
 from ...model.mechanism import ContactExclusion
 from ...model.native import LOOP, OTHER_TAGS
@@ -140,6 +140,27 @@ def report_unwritten_settings(
             written.report_loss(
                 "setting", text, place, kind=kind, name=name, severity=severity, data=data
             )
+
+
+def report_resistance(joint: Joint, rows: Iterable[Setting], written: Written) -> None:
+    """Report values of ``RESISTANCE`` that a format has of joints with one axis only.
+
+    Args:
+        joint: A joint of another type.
+        rows: Rows of these values.
+        written: The export, which receives the loss.
+    """
+    lost = [row.name for row in rows if joint.get_resistance(row.name)]
+    if lost and joint.dynamics is not None:
+        verb, them = ("are", "them") if len(lost) > 1 else ("is", "it")
+        text = (
+            f"{', '.join(lost)} of joint '{joint.name}' {verb} dropped: the format has {them} of "
+        )
+        text += "joints with one axis"
+        data, place = {LOST_SETTINGS: lost}, joint.dynamics.place
+        written.report_loss(
+            "joint-resistance", text, place, kind="joint", name=joint.name, data=data
+        )
 
 
 def report_blocks(

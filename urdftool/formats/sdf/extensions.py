@@ -102,8 +102,10 @@ def convert_joint_extensions(node: Node, t: Translation, joint: Joint) -> None:
     rows = [row for row in OF_JOINTS if row.name in joint.settings]
     turning = node.find("axis") is not None
     write_settings(node, joint.settings, [r for r in rows if turning or not _is_of_axis(r)])
-    for value in [joint.settings[row.name] for row in rows if not turning and _is_of_axis(row)]:
-        text = f"<{value.tag}> is set for joint '{joint.name}', which has no axis"
+    for row in [row for row in rows if not turning and _is_of_axis(row)]:
+        value = joint.settings[row.name]
+        what = f"<{value.tag}>" if value.xml is not None else row.name.replace("_", " ")
+        text = f"{what} is set for joint '{joint.name}', which has no axis"
         t.report_loss("extension", f"{text}; it is not exported", value, joint)
 
 

@@ -12,6 +12,7 @@ from ...model.pose import IDENTITY, compute_cross, compute_norm
 from ...model.settings import MAGNITUDES, RESISTANCE
 from ..common.actuator_config import JointSettings
 from ..common.missing_bounds import explain_default_bounds, explain_missing_bounds
+from ..common.unexpressed import report_resistance
 from .extensions import convert_joint_extensions, report_dissolved_joint
 from .frames import get_parent_frame
 from .inertials import WEIGHTLESS
@@ -30,6 +31,10 @@ SDF_TYPES = {
     **dict.fromkeys(sorted(BALL_TYPES), "ball"),
 }
 """SDF type of each URDF joint type; ``floating`` is dropped, ``planar`` becomes three joints."""
+
+
+_WRITTEN = tuple(row for row in RESISTANCE if row.path)
+"""Values of the dynamics of an axis."""
 
 
 def add_joint(model: Node, t: Translation, part: Joint) -> None:
@@ -54,6 +59,7 @@ def add_joint(model: Node, t: Translation, part: Joint) -> None:
         _add_axis(node, t, part)
     elif kind == "ball":
         _report_mimic_loss(t, part)
+        report_resistance(part, _WRITTEN, t.written)
     _report_unspoken(node, t, part)
     add_joint_sensors(node, t, part)
     convert_joint_extensions(node, t, part)
@@ -81,12 +87,16 @@ def _add_axis(node: Node, t: Translation, part: Joint) -> None:
     limit = add(axis, "limit")
     _add_bounds(limit, t, part)
     _set_most(limit, t, part)
-    chosen = t.settings.get(part.name, JointSettings()).list_resistance()
-    for row in RESISTANCE:
-        value = chosen.get(row.name, getattr(part.dynamics, row.name, None))
-        if row.path and value is not None:
-            add(get_or_create(axis, "dynamics"), row.name, number_text(value))
+    _add_dynamics(axis, t, part)
     _add_mimic(axis, t, part)
+
+
+def _add_dynamics(axis: Node, t: Translation, part: Joint) -> None:
+    chosen = t.settings.get(part.name, JointSettings()).list_resistance()
+    for row in _WRITTEN:
+        value = chosen.get(row.name, getattr(part.dynamics, row.name, None))
+        if value is not None:
+            add(get_or_create(axis, "dynamics"), row.name, number_text(value))
 
 
 def _add_bounds(node: Node, t: Translation, part: Joint) -> None:
@@ -216,11 +226,11 @@ def add_planar(model: Node, t: Translation, part: Joint) -> None:
         link = f"{name}{suffix}_link"
         _add_between(model, t, part, link, name + suffix)
         _connect(node, before, link)
-        _add_slide(node, direction)
+        _add_free_axis(node, t, part, direction)
         before = link
     node = start(model, t, part, name, "revolute")
     _connect(node, before, "")
-    _add_slide(node, normal)
+    _add_free_axis(node, t, part, normal)
 
 
 def get_in_plane(normal: Vector) -> tuple[Vector, Vector]:
@@ -240,10 +250,12 @@ def _connect(node: Node, parent: str | None, child: str) -> None:
             found.text = name
 
 
-def _add_slide(node: Node, direction: Vector) -> None:
+def _add_free_axis(node: Node, t: Translation, part: Joint, direction: Vector) -> None:
+    """Add an axis without limits, with the damping and friction of a planar joint."""
     axis = add(node, "axis")
     add(axis, "xyz", format_numbers_text(direction))
     add(axis, "limit")
+    _add_dynamics(axis, t, part)
 
 
 def _add_between(model: Node, t: Translation, part: Joint, name: str, joint: str) -> None:

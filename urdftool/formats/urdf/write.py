@@ -202,7 +202,9 @@ def _bound(value: float | None, default: float) -> float:
 
 def _add_ball(t: Translation, joint: Joint, name: str, parent: str, child: str) -> None:
     """Write a ball joint as three hinges with links without mass between them."""
-    rest = "" if joint.limit is None else "; its limit is dropped"
+    lost = ["limit"] if joint.limit is not None else []
+    lost += [name for name in RESISTANCE_OF_URDF if joint.get_resistance(name)]
+    rest = f"; its {' and '.join(lost)} {'are' if len(lost) > 1 else 'is'} dropped" if lost else ""
     text = f"joint '{joint.name}' is three hinges about x, y and z, since URDF has no ball joints"
     t.written.report_loss("ball", text + rest, joint.place, kind="joint", name=joint.name)
     origin = joint.origin

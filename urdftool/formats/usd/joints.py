@@ -23,6 +23,7 @@ from ...model.pose import (
 )
 from ...model.settings import LOST_SETTINGS, RESISTANCE, SPRING
 from ..common.missing_bounds import explain_default_bounds, explain_missing_bounds
+from ..common.unexpressed import report_resistance
 from ..written import Written
 from .bodies import Bodies
 from .joint_values import JointValues
@@ -108,6 +109,8 @@ class JointWriter:
         if joint.type in MOVABLE and self.bodies.is_movable(joint):
             self._write_limits(prim, joint)
             self._write_dynamics(prim, joint)
+        elif self.bodies.is_movable(joint):
+            report_resistance(joint, RESISTANCE, self.written)
 
     def _create_prim(self, joint: Joint, axis: str) -> Usd.Prim:
         """Create the prim of a joint with its type and axis."""

@@ -49,7 +49,7 @@ EXCUSES = (
     # the trees that a floating joint leaves move freely in the world, each with a joint of its own
     Excuse(("base", "tree"), frozenset(("lossy-floating",)), "robot"),
     Excuse(("limits",), frozenset(("lossy-limit", "lossy-ball-limit"))),
-    Excuse(("joint physics",), frozenset(("lossy-joint-armature",))),
+    Excuse(("joint physics",), frozenset(("lossy-joint-armature", "lossy-joint-resistance"))),
     Excuse(("frames",), frozenset(("lossy-frame",)), "body"),
     Excuse(("tree",), frozenset(("lossy-mimic",))),
     Excuse(("collisions", "visuals"), SHAPES, "body"),
