@@ -168,6 +168,8 @@ def _engines_start_as_forks(monkeypatch):
     def start(words, **how):
         libraries = words[3].split(",") if len(words) > 3 else ()
         forks = "mujoco" in libraries and "mujoco" in sys.modules and can_fork()
+        if how["cwd"] is None:
+            del how["cwd"]
         return (ForkedPython if forks else subprocess.Popen)(words, **how)
 
     known = {name: getattr(subprocess, name) for name in ("PIPE", "TimeoutExpired")}

@@ -61,7 +61,7 @@ BASE = (
         "memo",
         "collector",
     ),
-    *("workspace", "projects", "git_command", "diagnostic", "standard_output"),
+    *("workspace", "projects", "git_command", "git_changes", "diagnostic", "standard_output"),
 )
 """Modules that know nothing of robots, each of which may import those before it."""
 
@@ -390,6 +390,7 @@ OPENERS = {
     "bundle/from_other.py": TEMPORARY,
     "bundle/manifest.py": "content of the bundle",
     "bundle/mesh_formats.py": CHECKED,
+    "git_changes.py": "files of a repository, to compare them with a commit",
     "bundle/origin.py": "license files and package.xml around files that are read",
     "bundle/output.py": OUTPUTS,
     "bundle/presets.py": CHECKED,

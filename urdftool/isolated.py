@@ -62,17 +62,24 @@ class IsolatedProcess:
     only if the process dies.
     """
 
-    def __init__(self, *preload: str, environment: Mapping[str, str] | None = None) -> None:
+    def __init__(
+        self,
+        *preload: str,
+        environment: Mapping[str, str] | None = None,
+        folder: str | None = None,
+    ) -> None:
         """Start the process.
 
         Args:
             preload: Modules to import while waiting; missing ones are ignored.
             environment: Variables in addition to those of this process.
+            folder: Working directory; None takes that of this process.
         """
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 -- closed in __exit__
         try:
             self._process = subprocess.Popen(
-                [sys.executable, "-c", _START, ",".join(preload), *sys.path],
+                [sys.executable, "-c", _START, ",".join(preload), *map(os.path.abspath, sys.path)],
+                cwd=folder,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=self._errors,

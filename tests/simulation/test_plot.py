@@ -88,14 +88,16 @@ def test_a_run_is_plotted_the_same_each_time():
     assert pixels(plot("mira", [run, run])).shape == pixels(image).shape
 
 
-def test_the_settings_of_the_user_do_not_matter(monkeypatch):
-    import matplotlib
-
+def test_the_settings_of_the_user_and_of_the_folder_do_not_matter(monkeypatch, tmp_path, capfd):
     x = np.linspace(0, 1, 50)
     before = draw_panels("t", [panel(x, x)])
-    with matplotlib.rc_context({"lines.linewidth": 9, "text.usetex": True}):
-        assert draw_panels("t", [panel(x, x)]) == before
-        assert matplotlib.rcParams["lines.linewidth"] == 9
+    for folder in (tmp_path, tmp_path / "config"):
+        folder.mkdir(exist_ok=True)
+        (folder / "matplotlibrc").write_text("secret text\nlines.linewidth: 9\n")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLCONFIGDIR", str(tmp_path / "config"))
+    assert draw_panels("t", [panel(x, x)]) == before
+    assert "secret" not in "".join(capfd.readouterr())
 
 
 @pytest.mark.slow

@@ -6,11 +6,11 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from hashlib import sha1, sha256
 from pathlib import Path
 
 from ..diagnostic import Severity
 from ..finding import Finding
+from ..git_changes import is_blob_of
 from ..git_command import run_git
 from ..projects import find_repository
 from ..source.location import Place, SourceFile
@@ -203,18 +203,8 @@ def _find_modified(root: Path, files: Mapping[Path, str]) -> Iterator[str]:
         if tab:
             blobs[os.fsdecode(entry)] = facts.split()[2].decode()
     for name, path in relative.items():
-        data = path.read_bytes()
-        pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:%s\nsize %d\n" % (
-            sha256(data).hexdigest().encode(),
-            len(data),
-        )
-        forms = data, data.replace(b"\r\n", b"\n"), pointer
-        if blobs.get(name) not in {_compute_blob_name(form) for form in forms}:
+        if name not in blobs or not is_blob_of(path.read_bytes(), blobs[name]):
             yield files[path]
-
-
-def _compute_blob_name(data: bytes) -> str:
-    return sha1(b"blob %d\0" % len(data) + data, usedforsecurity=False).hexdigest()
 
 
 def _run_git(folder: Path, *words: str) -> bytes | None:

@@ -254,7 +254,7 @@ def _check_paths(
         raise click.UsageError(explain_nothing_found(paths))
     files, excluded = exclude_files(files, paths, console.config, workspace)
     if changed_since is not None:
-        files = select_changed(console, files, found, changed_since, folders or ["."], workspace)
+        files = select_changed(console, files, found, changed_since, folders or ["."])
     if list_robots:
         print_list(files, found)
         return 0

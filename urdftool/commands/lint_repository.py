@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from ..lint.options import Options
     from ..lint.outcome import Report
     from ..lint.repository import Repository
-    from ..workspace import Workspace
 
 
 def find_repository(paths: Sequence[str], options: Options) -> Repository:
@@ -57,19 +56,23 @@ def select_changed(
     found: Repository,
     revision: str,
     folders: Sequence[str],
-    workspace: Workspace,
 ) -> list[str]:
     """Return the files that changes since a revision of git concern.
 
     Raises:
         UrdftoolError: Git cannot list what changed.
     """
+    from ..git_changes import Changes
     from ..lint.changes import list_changed_files, select_concerned
 
-    changed = {path for folder in folders for path in list_changed_files(folder, revision)}
-    kept = select_concerned(files, found, changed, workspace, console.config)
+    changes = Changes()
+    for folder in folders:
+        one = list_changed_files(folder, revision)
+        changes.changed |= one.changed
+        changes.files |= one.files
+    kept = select_concerned(files, found, changes, console.config)
     console.print_note(
-        f"{format_count(len(changed), 'file')} changed since {revision}: "
+        f"{format_count(len(changes.changed), 'file')} changed since {revision}: "
         f"{len(kept)} of {format_count(len(files), 'robot')} concerned"
     )
     return kept

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import gc
 import math
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from io import BytesIO
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
 from ..drawing.raster import Indices
 from ..drawing.text import replace_undrawable
+from ..isolated import IsolatedProcess
 from ..model.pose import rotation_from_quaternion
 from .recording import Array, Recording
 from .run import Run
@@ -29,6 +30,9 @@ _COLORS = (
 _OTHERS = "#bec2c8"
 _DPI = 100
 """Pixels of a plot in an inch. Chosen, no source."""
+
+_LONGEST = 600.0
+"""Time in which a plot is drawn, on a busy machine, too [s]. Chosen, no source."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,31 +92,31 @@ def plot(title: str, runs: Sequence[Run]) -> bytes:
 
 def draw_panels(title: str, panels: Sequence[Panel], at_rest: float | None = None) -> bytes:
     """Draw panels one below the other over one time axis, as a PNG file."""
-    data = _render(title, panels, at_rest)
-    # Matplotlib leaves reference cycles to the frames of its callers, and so to hulls of
-    # manifold3d, which prints a list of live objects when Python ends
-    gc.collect()
+    # Matplotlib reads settings in the working directory when it is imported
+    with TemporaryDirectory() as folder, IsolatedProcess("matplotlib", folder=folder) as process:
+        arguments = title, tuple(panels), at_rest
+        data: bytes = process.call(__name__, render.__name__, *arguments, time_limit=_LONGEST)
     return data
 
 
-def _render(title: str, panels: Sequence[Panel], at_rest: float | None) -> bytes:
+def render(title: str, panels: Sequence[Panel], at_rest: float | None) -> bytes:
+    """Draw panels as :func:`draw_panels`, in a process of its own, whose settings it changes."""
     import matplotlib
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    with matplotlib.rc_context(), warnings.catch_warnings():
-        matplotlib.rcdefaults()  # type: ignore[no-untyped-call,unused-ignore]
-        warnings.simplefilter("ignore")  # characters that the font does not have
-        matplotlib.rcParams["text.parse_math"] = False  # a name may contain dollar signs
-        figure = Figure(figsize=(12, 1.2 + 1.9 * len(panels)), dpi=_DPI, layout="constrained")
-        FigureCanvasAgg(figure)
-        figure.suptitle(replace_undrawable(title))
-        rows: Any = figure.subplots(len(panels), 1, sharex=True, squeeze=False)
-        for axes, panel in zip(rows[:, 0], panels, strict=True):
-            _draw(axes, panel, at_rest)
-        rows[-1, 0].set_xlabel("time [s]")
-        data = BytesIO()
-        figure.savefig(data, format="png", metadata={"Software": None})
+    matplotlib.rcdefaults()  # type: ignore[no-untyped-call,unused-ignore]
+    warnings.simplefilter("ignore")  # characters that the font does not have
+    matplotlib.rcParams["text.parse_math"] = False  # a name may contain dollar signs
+    figure = Figure(figsize=(12, 1.2 + 1.9 * len(panels)), dpi=_DPI, layout="constrained")
+    FigureCanvasAgg(figure)
+    figure.suptitle(replace_undrawable(title))
+    rows: Any = figure.subplots(len(panels), 1, sharex=True, squeeze=False)
+    for axes, panel in zip(rows[:, 0], panels, strict=True):
+        _draw(axes, panel, at_rest)
+    rows[-1, 0].set_xlabel("time [s]")
+    data = BytesIO()
+    figure.savefig(data, format="png", metadata={"Software": None})
     return data.getvalue()
 
 
