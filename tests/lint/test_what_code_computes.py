@@ -5,6 +5,7 @@ import json
 import pytest
 
 from tests.lint.test_imported_readers import ROBOT
+from urdftool.api.lint import check
 from urdftool.lint.called_names import list_names
 from urdftool.lint.imported_readers import find_imported_readers
 from urdftool.lint.libraries import CHAIN, PLANNER, SCENE, TESSERACT
@@ -101,7 +102,7 @@ def test_a_robot_in_sdf_is_read_by_what_the_code_imports(tmp_path, code, readers
 def test_the_last_lines_count_what_is_about_dynamics(tmp_path, urdftool):
     _find_use(tmp_path, "import pink\nimport pinocchio\n")
     result = urdftool("lint", tmp_path, "--format", "json")
-    assert "2 about dynamics, which no code here computes; --ext" in result.err
+    assert "2 findings left out, about dynamics, which no code here computes; --ext" in result.err
     assert json.loads(result.out)["summary"]["for_other_readers"] == {"placeholder-inertia": 2}
 
 
@@ -119,3 +120,86 @@ def test_sdf_is_for_the_readers_of_the_project(tmp_path, urdftool, code, targets
     result = urdftool("lint", tmp_path / "box.sdf")
     assert f"(targets: {targets})" in result.err
     assert ("error: link 'a' has no <inertial>" in result.out) is (not code)
+
+
+DIRECTIVES = """directives:
+- add_model: {name: floor, file: package://lab/box.sdf}
+- add_weld: {parent: table::top, child: floor::a}
+- add_model: {name: table, file: package://lab/table.sdf}
+- add_weld: {parent: world, child: table::top}
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "reported"),
+    [
+        ("a.dmd.yaml", DIRECTIVES, False),
+        ("a.scenario.yaml", "Lab:\n  " + DIRECTIVES.replace("\n", "\n  "), False),
+        ("a.yaml", DIRECTIVES, True),
+        ("a.dmd.yaml", DIRECTIVES.replace("parent: world", "parent: arm::hand"), True),
+        ("a.dmd.yaml", DIRECTIVES.replace("box.sdf", "ox.sdf"), True),
+        (
+            "a.dmd.yaml",
+            f"{DIRECTIVES}- add_model: {{name: b, file: package://lab/box.sdf}}\n",
+            False,
+        ),
+        (
+            "a.dmd.yaml",
+            f"{DIRECTIVES}- add_model: {{name: b, file: package://lab/box.sdf, "
+            "default_free_body_pose: {a: {}}}\n",
+            True,
+        ),
+        ("a.dmd.yaml", f"{DIRECTIVES}add_model: [", True),
+    ],
+)
+def test_no_inertia_is_used_of_a_link_that_directives_weld(tmp_path, name, text, reported):
+    folder = tmp_path / "lab"
+    folder.mkdir()
+    (tmp_path / "setup.py").write_text("")
+    (tmp_path / "env.py").write_text("import pydrake\nSimulator(diagram)\n")
+    (folder / "box.sdf").write_text(SDF)
+    (folder / name).write_text(text)
+    codes = {finding.code for finding in check(folder / "box.sdf")}
+    assert ("missing-inertial" in codes) is reported
+
+
+@pytest.mark.parametrize(("shape", "rejected"), [("drake:ellipsoid", True), ("sphere", False)])
+def test_no_effect_is_said_of_readers_that_reject_a_shape_of_drake(tmp_path, shape, rejected):
+    path = tmp_path / "cart.urdf"
+    path.write_text(ROBOT.replace("<box ", f"<{shape} radius='1' "))
+    found = [one for one in check(path) if one.code == "placeholder-inertia"]
+    named = {reader for one in found for key in one.effects for reader in key.split(", ")}
+    assert "drake" in named
+    assert named.isdisjoint({"mujoco", "pybullet"}) is rejected
+
+
+def test_drake_takes_no_mass_and_no_motor_in_sdf(tmp_path):
+    (tmp_path / "setup.py").write_text("")
+    path = tmp_path / "box.sdf"
+    path.write_text(SDF.replace('"a">', '"a"><inertial><mass>0</mass></inertial>'))
+    assert "zero-mass" in {finding.code for finding in check(path)}
+    (tmp_path / "env.py").write_text("import pydrake\n")
+    assert "zero-mass" not in {finding.code for finding in check(path)}
+
+
+SRDF = """<robot name="other"><group name="g"><chain base_link="hand" tip_link="gone"/></group>
+<disable_collisions link1="hand" link2="nobody" reason="Never"/></robot>"""
+
+
+def test_an_srdf_of_tesseract_is_checked_for_what_it_names(tmp_path):
+    _find_use(tmp_path, "import tesseract_robotics\n")
+    (tmp_path / "cart.srdf").write_text(SRDF)
+    found = check(tmp_path / "cart.urdf")
+    codes = {finding.code for finding in found}
+    assert {"srdf-robot-name", "srdf-unknown-link"} <= codes
+    assert not codes & {"chain-not-connected", "adjacent-pair-not-disabled"}
+    assert not any("moveit" in key for finding in found for key in finding.effects)
+    (tmp_path / "env.py").write_text("import pybullet\n")
+    assert "srdf-robot-name" not in {finding.code for finding in check(tmp_path / "cart.urdf")}
+
+
+def test_a_file_with_a_prefix_that_it_does_not_use_is_checked_beside_a_wrong_comment(tmp_path):
+    path = tmp_path / "cart.urdf"
+    text = ROBOT.replace('"cart"', '"cart" xmlns:xacro="http://www.ros.org/wiki/xacro"')
+    path.write_text(text.replace("</robot>", "<!-- a -- b --></robot>"))
+    assert {"not-well-formed", "placeholder-inertia"} <= {one.code for one in check(path)}

@@ -10,14 +10,14 @@ from pathlib import Path
 
 from .. import rules
 from ..finding import Finding
-from ..model.elements import Collision, Mesh, Robot, Visual
+from ..model.elements import Collision, Mesh, Robot, UnknownShape, Visual
 from ..model.mesh_formats import find_rejecting_readers, get_suffix
 from ..rules.gazebo.lumped_model import find_kept_links, find_omitted_links, is_named_as_link
 from ..rules.inertia.bodies import find_massless_pairs
 from ..rules.inertia.massless import has_bare_moved_body
 from ..rules.inertia.tensors import has_inertia_that_mujoco_rejects
 from ..rules.mesh.mesh_uses import MeshUse, get_mesh_uses
-from ..rules.mujoco import find_rejected_by_mujoco, get_assumed_package
+from ..rules.mujoco import find_rejected_by_mujoco, get_assumed_package, keeps_visuals
 from ..rules.package.resolution import is_in_own_package
 from ..rules.rule import GAZEBO
 from ..source.description import Description
@@ -100,6 +100,8 @@ class Rejections:
                 self._omitted_joints = frozenset(j.name for j in robot.joints if j.child in omitted)
             if rejecting:
                 self._by_reader.update((reader, set(rejecting)) for reader in GAZEBO)
+        for reader in _find_rejecting_shapes_of_drake(robot):
+            self._by_reader.setdefault(reader, set())
         if has_bare_moved_body(robot):
             self._by_reader["mujoco"] = {"massless-moving-body"}
         if has_inertia_that_mujoco_rejects(robot):
@@ -193,6 +195,19 @@ class Rejections:
         if reader in self._without_shapes and rule not in _OF_FILES:
             return rules.FAMILY_OF.get(rule) not in _OF_GEOMETRY
         return True
+
+
+def _find_rejecting_shapes_of_drake(robot: Robot) -> set[str]:
+    """Return the readers that reject shapes such as <drake:ellipsoid>, of which no rule tells."""
+    of_drake = [
+        shape
+        for _, shape in robot.shapes
+        if isinstance(shape.geometry, UnknownShape) and shape.geometry.element.tag[:6] == "drake:"
+    ]
+    if not of_drake:
+        return set()
+    read = keeps_visuals(robot) or any(isinstance(shape, Collision) for shape in of_drake)
+    return {"pybullet", "mujoco"} if read else {"pybullet"}
 
 
 def has_undeclared_prefix(element: Element, declared: frozenset[str] = frozenset()) -> bool:

@@ -17,19 +17,27 @@ def is_joint_unused(robot: Robot | None, problem: Problem) -> bool:
     return joint is not None and joint.is_fixed
 
 
-def is_link_unused(robot: Robot | None, problem: Problem) -> bool:
-    """Tell whether no reader uses the inertia of a subject: a link that is fixed to the world."""
+def is_link_unused(
+    robot: Robot | None, problem: Problem, welded: frozenset[str] = frozenset()
+) -> bool:
+    """Tell whether no reader uses the inertia of a subject: a link that is fixed to the world.
+
+    Args:
+        robot: The robot.
+        problem: The problem with the subject.
+        welded: Links that a program welds to the world.
+    """
     name = problem.name
     if robot is None or not name or problem.kind != "link":
         return False
     seen: set[str] = set()
-    while name != "world" and name not in seen:
+    while name != "world" and name not in welded and name not in seen:
         seen.add(name)
         joint = robot.tree.get_parent_joint(name)
         if joint is None or not joint.is_fixed:
             return False
         name = joint.parent
-    return name == "world"
+    return name == "world" or name in welded
 
 
 def is_welded_in_mujoco(robot: Robot | None, problem: Problem) -> bool:

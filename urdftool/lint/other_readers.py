@@ -62,12 +62,31 @@ _LEFT_OUT = {
 """Families of rules that concern no reader of a kind, the kind with most uses first."""
 
 
+_TAKEN = {"drake": frozenset(("zero-effort-limit", "zero-mass"))}
+"""Rules about values that a reader takes as meant, in SDF: a joint without a motor, no mass."""
+
+_OF_SRDF = frozenset(
+    (
+        *("srdf-unknown-link", "srdf-unknown-joint", "srdf-robot-name", "disabled-pair-can-touch"),
+        *("group-state-out-of-bounds",),
+    )
+)
+"""Rules about an SRDF that hold for Tesseract, too: what it names, and pairs that touch.
+
+Its chains may lead from one branch to another: they are those of KDL.
+"""
+
+
 def is_for_other_readers(rule: Rule, finding: Finding, used: Use) -> bool:
     """Tell whether a finding has effects only on readers that a project does not use.
 
     A project without dynamics uses no inertia and no drive. Readers of kinematics are named by no
     effect: what is wrong with the tree, names and joints concerns them, and shapes only some.
     """
+    if used.readers and all(rule.name in _TAKEN.get(reader, ()) for reader in used.readers):
+        return not finding.effects  # of URDF, they decide
+    if TESSERACT in used.readers and rule.name in _OF_SRDF:
+        return False
     if rule.family in _OF_ROS:
         return not _is_affected(rule, finding, used)
     if not used.moving and is_of_dynamics(rule):

@@ -29,7 +29,9 @@ from ..source.packages import Packages
 from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
 from .completed_files import find_completing_code
+from .drake_directives import find_welded_links
 from .imported_readers import find_imported_readers
+from .libraries import TESSERACT
 from .merge import merge, sort_findings
 from .moot import Rejections
 from .motion import UNUSED_JOINT, WELDED, is_joint_unused, is_link_unused, is_welded_in_mujoco
@@ -242,7 +244,8 @@ def _read_mended(
     file: SourceFile, options: Options, configuration: Configuration
 ) -> Description | None:
     """Read a file that is not well-formed as tolerant readers do, to check the rest of it."""
-    repaired = None if is_xacro(file) else repair(file)
+    is_expanded = file.path.endswith(".urdf") and b"<xacro:" not in file.data
+    repaired = repair(file) if is_expanded or not is_xacro(file) else None
     if repaired is None:
         return None
     try:
@@ -286,7 +289,11 @@ def _check_description(
     report.format = "urdf" if robot is None else robot.format
     if robot is not None and not settings.get_names():
         report.skipped = "its configuration leaves no rule"
-    rules = _select_rules(settings, targets, description, report.format)
+    chosen = settings.targets is not None  # then the user named the readers
+    used = None if chosen else find_imported_readers(description, targets)
+    has_srdf = used is not None and TESSERACT in used.readers
+    for_rules = targets | {"moveit"} if has_srdf else targets
+    rules = _select_rules(settings, for_rules, description, report.format)
     if report.format != "urdf":
         rules = [rule for rule in rules if report.format in rule.formats]
     documents = list(_list_documents(description, report.format))
@@ -302,8 +309,8 @@ def _check_description(
         "targets": targets,
         "guessed": guessed,
     }
-    chosen = settings.targets is not None  # then the user named the readers
-    used = None if chosen else find_imported_readers(description, targets)
+    is_of_drake = used is not None and "drake" in used.readers
+    welded = find_welded_links(options.workspace, description.path) if is_of_drake else frozenset()
     ran: set[str] = set()
     origins: dict[int, Any] = {}
     hidden: list[Finding] = []
@@ -326,6 +333,11 @@ def _check_description(
                 if not settings.is_pedantic_on(rule.name):
                     is_off = (
                         problem.pedantic
+                        or (
+                            welded
+                            and is_of_dynamics(rule)
+                            and is_link_unused(robot, problem, welded)
+                        )
                         or _is_info_off(rule, finding, settings)
                         or is_of_unmoved_robot(rule, finding, robot)
                     )

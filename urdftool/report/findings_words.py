@@ -110,12 +110,14 @@ def list_left_out(outcome: Outcome) -> Iterator[str]:
     about_dynamics = sum(report.about_dynamics for report in outcome.reports)
     others = count - about_dynamics
     reasons = [
-        *[f"{others} with effects only on readers that the project does not use"] * bool(others),
-        *[f"{about_dynamics} about dynamics, which no code here computes"] * bool(about_dynamics),
+        *["with effects only on readers that the project does not use"] * bool(others),
+        *["about dynamics, which no code here computes"] * bool(about_dynamics),
     ]
     if count:
+        if others and about_dynamics:
+            reasons = [f"{others} {reasons[0]}", f"{about_dynamics} {reasons[1]}"]
         yield (
-            f"{format_count(count, 'finding')} left out: {', '.join(reasons)}; "
+            f"{format_count(count, 'finding')} left out, {', '.join(reasons)}; "
             f"--extend-select pedantic shows {'it' if count == 1 else 'them'}"
         )
 
