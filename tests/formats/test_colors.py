@@ -107,3 +107,38 @@ def test_the_first_definition_of_a_name_is_proved(tmp_path: Path, name: str, nee
     robot = load(tmp_path, top=RED_PAINT, material=BLUE_PAINT)
     result = getattr(urdftool, f"export_{name}")(robot, tmp_path / name, verify=True)
     assert [one.verdict for one in result.checks if one.name == "colors"] == ["equal"]
+
+
+SEEN_THROUGH = """<sdf version="1.9"><model name="r"><link name="base">
+<visual name="v"><geometry><box><size>1 1 1</size></box></geometry>{}</visual>
+</link></model></sdf>"""
+RED_OF_SDF = "<material><diffuse>1 0 0 {}</diffuse></material>"
+
+
+@pytest.mark.parametrize("kind", ["mjcf", "usd", "urdf"])
+@pytest.mark.parametrize(
+    ("alpha", "transparency", "shown"), [(1, "<transparency>0.3</transparency>", 0.7), (0.5, "", 1)]
+)
+def test_transparency_of_sdf_is_the_alpha_of_other_formats(
+    tmp_path: Path, kind: str, alpha: float, transparency: str, shown: float
+) -> None:
+    """Write what Gazebo shows, which ignores the alpha of ``<diffuse>``."""
+    pytest.importorskip({"mjcf": "mujoco", "usd": "pxr", "urdf": "lxml"}[kind])
+    source = tmp_path / "r.sdf"
+    source.write_text(SEEN_THROUGH.format(RED_OF_SDF.format(alpha) + transparency), "utf-8")
+    export = getattr(urdftool, f"export_{kind}")
+    written = export(urdftool.load(source), tmp_path / kind, verify=True)
+    assert {c.name: c.differing for c in written.checks if c.differing} == {}
+    target = next((tmp_path / kind).glob("r.*"))
+    (visual,) = urdftool.load(target).link["base"].visuals
+    assert visual.material is not None
+    assert visual.material.color == pytest.approx((1, 0, 0, shown), abs=4e-3)
+    differences = urdftool.verify(source, target).list_disagreements()
+    assert [one for one in differences if one.row == "colors"] == []
+
+
+def test_a_transparency_without_a_color_is_reported(tmp_path: Path) -> None:
+    source = tmp_path / "r.sdf"
+    source.write_text(SEEN_THROUGH.format("<transparency>0.3</transparency>"), "utf-8")
+    losses = urdftool.export_mjcf(urdftool.load(source)).losses
+    assert any("transparency of a visual is dropped" in loss.message for loss in losses)

@@ -8,12 +8,11 @@ blocks of the link; :func:`get_appearance` adds what the color or the named mate
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from decimal import Decimal
 
 from ..source.document import Element
 from .elements import Link, Material, Robot, Visual
 from .gazebo_colors import COLORS, Color
-from .materials import resolve_material
+from .materials import compute_complement, resolve_material
 from .read_settings import read_sdf_settings
 from .settings import Rejected, Setting, Settings, Value, add_kinds, get_text
 
@@ -128,7 +127,7 @@ def convert_material(own: Material | None) -> Settings:
         tag: Value(own.provenance, rgba) for tag in ("ambient", "diffuse")
     }
     if rgba[3] < 1.0:
-        settings["transparency"] = Value(own.provenance, _get_complement(rgba[3]))
+        settings["transparency"] = Value(own.provenance, compute_complement(rgba[3]))
     if own.texture:
         settings["metalness"] = Value(own.provenance, 0.0)
     return settings
@@ -144,10 +143,5 @@ def convert_color(at: Element | Visual, color: Color) -> Settings:
     if any(color.emissive):
         found["emissive"] = Value(source, (*color.emissive, 1.0))
     if color.alpha < 1.0:
-        found["transparency"] = Value(source, _get_complement(color.alpha))
+        found["transparency"] = Value(source, compute_complement(color.alpha))
     return found
-
-
-def _get_complement(alpha: float) -> float:
-    """Return the complement of alpha, in decimal to avoid binary rounding digits."""
-    return float(Decimal(1) - Decimal(repr(alpha)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from decimal import Decimal
 
 from .elements import Link, Material, Robot, Visual
 from .gazebo_colors import COLORS
@@ -71,5 +72,10 @@ def find_gazebo_material(link: Link, visual: Visual) -> Material | None:
     alpha = 1.0 if named is None else named.alpha
     transparency = get_number(shown, "transparency")
     if transparency is not None:
-        alpha = 1.0 - transparency
+        alpha = compute_complement(transparency)
     return Material(visual.provenance, color=(rgb[0], rgb[1], rgb[2], alpha))
+
+
+def compute_complement(share: float) -> float:
+    """Return the transparency of an alpha or the reverse, without binary rounding digits."""
+    return float(Decimal(1) - Decimal(repr(share)))

@@ -107,7 +107,7 @@ def test_shapes_and_sensors(robot):
     assert make_pose(plane.origin).transform((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, -0.1))
     body, hill = base.visuals
     assert body.geometry == Ellipsoid(body.geometry.provenance, (0.1, 0.2, 0.3))
-    assert body.material.color == (0.1, 0.2, 0.3, 0.4)
+    assert body.material.color == (0.1, 0.2, 0.3, 1.0)  # Gazebo ignores the alpha of <diffuse>
     assert isinstance(hill.geometry, UnknownShape)
     assert (hill.geometry.tag, hill.geometry.files) == ("heightmap", ("hill.png",))
     mesh = robot.link["left::palm"].visuals[0].geometry

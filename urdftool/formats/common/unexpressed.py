@@ -242,10 +242,11 @@ def _report_appearance(robot: Robot, written: Written) -> None:
 
 def _is_dropped(row: Setting, shown: Settings) -> bool:
     """Tell whether a value is neither that of SDF without it nor in the color of a visual."""
-    value = shown.get(row.name)
-    if value is None or value.content == row.default or row.name in ("diffuse", "transparency"):
+    value, diffuse = shown.get(row.name), shown.get("diffuse")
+    if value is None or value.content == row.default or row.name == "diffuse":
         return False
-    diffuse = shown.get("diffuse")
+    if row.name == "transparency":
+        return diffuse is None
     if row.name == "ambient" and diffuse is not None:
         return diffuse.content != value.content
     return row.name != "metalness" or bool(value.content)  # no metal is what others show

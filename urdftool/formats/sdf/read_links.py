@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import posixpath
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import dropwhile, islice, pairwise
 from pathlib import Path
 
@@ -34,11 +34,12 @@ from ...model.elements import (
     Visual,
 )
 from ...model.gazebo_colors import COLORS
+from ...model.materials import compute_complement
 from ...model.pose import IDENTITY, Pose, compute_norm, get_origin_at
 from ...model.provenance import Written
 from ...model.read_settings import read_sdf_settings
 from ...model.sensors import read_sensor
-from ...model.settings import OF_LINKS, SURFACE, Value
+from ...model.settings import OF_LINKS, SURFACE, Value, get_number
 from ...model.shapes import collect_content
 from ...source.document import Element
 from ...workspace import Workspace
@@ -150,6 +151,10 @@ def _read_visual(
     visual = Visual(written, element.get("name"), origin, geometry, material)
     rejected, part = context.robot.rejected_settings, _name_part(prefix, link)
     visual.appearance, visual.script = read_sdf_appearance(element, rejected, part), script
+    if material is not None and material.color is not None:  # Gazebo ignores the alpha of diffuse
+        red, green, blue, _ = material.color
+        alpha = compute_complement(get_number(visual.appearance, "transparency") or 0.0)
+        visual.material = replace(material, color=(red, green, blue, alpha))
     if material is not None and material.texture and find_script(element):
         visual.appearance.setdefault("metalness", Value(written, 0.0))  # scripts have no metal
     if script:

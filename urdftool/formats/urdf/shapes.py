@@ -65,13 +65,15 @@ def add_shape(
 
 
 def _report_looks(robot: Robot, written: Written, link: Link, shape: Visual) -> None:
-    """Report lights and transparency, which plain URDF does not have; blocks of URDF are copied."""
-    lost = [name for name in shape.appearance if name != "diffuse"]
+    """Report lights of a visual, which plain URDF does not have; blocks of URDF are copied."""
+    in_color = ("diffuse", "transparency") if "diffuse" in shape.appearance else ()
+    lost = [name for name in shape.appearance if name not in in_color]
     if robot.format == "sdf" and shape.material is not None and "ambient" not in lost:
         lost.append("ambient")  # black in SDF where none is written, the color in URDF
     if lost and robot.format != "urdf":
         names, data = ", ".join(lost).replace("_", " "), {LOST_SETTINGS: lost}
-        text = f"{names} of a visual of link '{link.name}' are dropped; URDF has a color"
+        verb = "are" if len(lost) > 1 else "is"
+        text = f"{names} of a visual of link '{link.name}' {verb} dropped; URDF has a color"
         info, kind = Severity.INFO, "link"
         written.report_loss(
             "appearance", text, shape.place, kind=kind, name=link.name, severity=info, data=data
