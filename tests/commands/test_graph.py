@@ -153,7 +153,6 @@ def test_findings_are_marked_where_they_are_and_exit_1(urdftool, tmp_path, monke
         "link:upper_arm": {"error: inertia-triangle-inequality"},
         "link:forearm": {"error: inertia-triangle-inequality"},
         "joint:elbow": {"error: unknown-attribute"},
-        "link:flange": {"info: missing-inertial"},
         "link:tool": {"error: mesh-not-found"},
     }
     svg = unescape(Path("arm.svg").read_text("utf-8"))

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from ..diagnostic import Severity
+from ..finding import Finding
 from ..model.elements import Robot
-from ..rules.rule import Problem
+from ..rules.mesh.link_extents import get_extents
+from ..rules.rule import Problem, Rule
 
 WELDED = "does not use it: it fixes the root link to the world"
 UNUSED_JOINT = "does not use it, because the joint is fixed"
@@ -50,3 +53,23 @@ def is_welded_in_mujoco(robot: Robot | None, problem: Problem) -> bool:
     if robot is None or problem.kind != "link" or name not in robot.tree.bodies:
         return False
     return robot.tree.get_parent_joint(robot.tree.bodies[name]) is None
+
+
+_SCENERY = 0.8
+"""Length [m] of a link from which a model without a moving joint is scenery, as a table or a floor,
+and no object to grasp. Chosen, no source.
+"""
+
+
+def is_of_scenery(rule: Rule, finding: Finding, robot: Robot | None) -> bool:
+    """Tell whether a remark about motion is about scenery, which code fixes to the world.
+
+    It is a URDF or SDF without a moving joint, of which a link is as long as furniture.
+    """
+    if robot is None or not rule.of_motion or finding.severity is Severity.ERROR:
+        return False
+    if robot.format not in ("urdf", "sdf") or robot.moving_joints:
+        return False
+    reach = get_extents(robot)
+    boxes = (reach.get_link_box(link) for link in robot.links)
+    return any(box is not None and max(box.size) >= _SCENERY for box in boxes)

@@ -32,9 +32,17 @@ from .completed_files import find_completing_code
 from .drake_directives import find_welded_links
 from .imported_readers import find_imported_readers
 from .libraries import TESSERACT
+from .meant import is_explained
 from .merge import merge, sort_findings
 from .moot import Rejections
-from .motion import UNUSED_JOINT, WELDED, is_joint_unused, is_link_unused, is_welded_in_mujoco
+from .motion import (
+    UNUSED_JOINT,
+    WELDED,
+    is_joint_unused,
+    is_link_unused,
+    is_of_scenery,
+    is_welded_in_mujoco,
+)
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .options import Options
 from .other_readers import (
@@ -340,6 +348,8 @@ def _check_description(
                         )
                         or _is_info_off(rule, finding, settings)
                         or is_of_unmoved_robot(rule, finding, robot)
+                        or is_of_scenery(rule, finding, robot)
+                        or (finding.severity is not Severity.ERROR and is_explained(problem))
                     )
                     if not is_off and used and is_for_other_readers(rule, finding, used):
                         count = report.for_other_readers.get(rule.name, 0)

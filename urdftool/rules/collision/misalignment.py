@@ -118,7 +118,8 @@ def compare_places(robot: Robot, link: Link, part: float) -> Misalignment | None
         return None
     sizes = zip(sorted(visual_box.size), sorted(collision_box.size), strict=True)
     alike = all(abs(a - b) <= _ALIKE * max(a, b) for a, b in sizes)
-    if not alike and any(
+    is_beside = not alike or _is_primitive_of_mesh(link, visual_box, collision_box)
+    if is_beside and any(
         _covers(box, collision_box) for box in _get_visuals_around(robot, reach, link)
     ):
         return None
@@ -137,6 +138,19 @@ def compare_places(robot: Robot, link: Link, part: float) -> Misalignment | None
             xyz = None  # both have this origin: the frames of the mesh files differ
     same = xyz is not None and _is_same(link.visuals[0].geometry, link.collisions[0].geometry)
     return Misalignment(distance, alike, odd, why, xyz, same)
+
+
+def _is_primitive_of_mesh(link: Link, visual_box: Bounds, collision_box: Bounds) -> bool:
+    """Tell whether primitives for the meshes of a link touch these.
+
+    Around a joint, such a shape may stand for the housings of both links.
+    """
+    kinds = {isinstance(shape.geometry, Mesh) for shape in link.collisions}
+    return (
+        kinds == {False}
+        and all(isinstance(shape.geometry, Mesh) for shape in link.visuals)
+        and visual_box.meets(collision_box)
+    )
 
 
 def _has_readable_origin(shape: Visual | Collision) -> bool:
