@@ -64,12 +64,18 @@ and no object to grasp. Chosen, no source.
 def is_of_scenery(rule: Rule, finding: Finding, robot: Robot | None) -> bool:
     """Tell whether a remark about motion is about scenery, which code fixes to the world.
 
-    It is a URDF or SDF without a moving joint, of which a link is as long as furniture.
+    It is a URDF or SDF without a moving joint, of which a link is as long as furniture, or as far
+    from its frame.
     """
-    if robot is None or not rule.of_motion or finding.severity is Severity.ERROR:
+    if robot is None or finding.severity is Severity.ERROR:
+        return False
+    if not rule.of_motion and rule.family != "inertia":
         return False
     if robot.format not in ("urdf", "sdf") or robot.moving_joints:
         return False
     reach = get_extents(robot)
     boxes = (reach.get_link_box(link) for link in robot.links)
-    return any(box is not None and max(box.size) >= _SCENERY for box in boxes)
+    return any(
+        box is not None and max(*box.size, *map(abs, (*box.low, *box.high))) >= _SCENERY
+        for box in boxes
+    )
