@@ -42,7 +42,7 @@ def test_a_sphere_around_a_drone_is_meant(tmp_path, radius, at, count):
 
 
 @pytest.mark.parametrize(
-    ("middle", "length", "count"), [("-0.15", "0.3", 0), ("0.15", "0.3", 1), ("-0.15", "0.9", 1)]
+    ("middle", "length", "count"), [("-0.15", "0.3", 0), ("0.15", "0.4", 1), ("-0.15", "0.9", 1)]
 )
 def test_a_collision_of_a_whole_thigh_spans_what_its_joint_moves(tmp_path, middle, length, count):
     hip = BODY.format("hip", MASS, box("0.1 0.1 0.1"), box(f"0.1 0.1 {length}", f"0 0 {middle}"))

@@ -8,7 +8,7 @@ from functools import partial
 
 from ...mechanics.mass_bounds import ALLOWED, CERTAIN, ROUNDING, SHORTEST, check_spread, name_shapes
 from ...mechanics.tensor import SymmetricTensor, compute_principal_moments, rotate_tensor
-from ...model.attached import find_attached_links
+from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.elements import Link, Robot
 from ...model.pose import make_pose
 from ...source.document import Element
@@ -253,7 +253,7 @@ def _find_large_inertias(
     for link, inertial, six in get_tensors(robot):
         if link.mass <= 0 or is_placeholder(link, six) or not is_positive(six):
             continue
-        if link.name in slight or is_only_sliding(robot, link):
+        if link.name in slight or _slides(robot, link):
             continue
         low, middle, high = compute_principal_moments(six)
         if low + middle < high:
@@ -306,6 +306,11 @@ def _find_large_inertias(
                 or (found.amount < 2 and link.mass < _OF_GRAMS)
                 or (not found.certain and not exchanged and SHORTEST <= found.amount < 2),
             )
+
+
+def _slides(robot: Robot, link: Link) -> bool:
+    """Tell whether a link slides relative to the world, and does not turn."""
+    return is_only_sliding(robot, link) and not is_fixed_to_world(robot, link)
 
 
 def _is_full(tensor: SymmetricTensor) -> bool:
