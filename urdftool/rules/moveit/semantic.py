@@ -132,8 +132,8 @@ def find_references(root: Element, kind: str) -> Iterator[tuple[Element, str, bo
 def srdf_unknown_link(robot: Robot, description: Description) -> Iterator[Problem]:
     """The SRDF refers to a link that does not exist in the robot.
 
-    MoveIt ignores a group, a chain or an end effector with such a link. For a pair with disabled
-    collision it is a warning.
+    MoveIt ignores the chain, the end effector, the virtual joint, or the ``<link>`` of a group; the
+    rest of the group stays. For a pair with disabled collision it is a warning.
     """
     reported: set[str] = set()
     for document in get_srdf_documents(robot, description):
@@ -212,17 +212,19 @@ def write_robot_name(problem: Problem, context: FixContext) -> Proposal | None:
 
 
 @rule(
-    ERROR,
+    WARNING,
     on=_ON,
     effects={
-        "moveit": "logs that the two links do not form a chain; the group is empty",
+        "moveit": "takes the joints up to the link where both branches meet and the joint above; "
+        "KDL solves no group of two branches",
     },
 )
 def chain_not_connected(robot: Robot, description: Description) -> Iterator[Problem]:
     """The tip link of a chain is not a descendant of its base link.
 
-    A chain must lead down the kinematic tree, from the base link to the tip link. MoveIt leaves the
-    group empty.
+    A chain for inverse kinematics leads down the kinematic tree, from the base link to the tip
+    link. MoveIt accepts another one: its group has the joints from both links up to the link where
+    they meet, and the joint above that link. Its KDL solver rejects a group of two branches.
     """
     for document in get_srdf_documents(robot, description):
         for element in document.root.walk():
@@ -232,8 +234,8 @@ def chain_not_connected(robot: Robot, description: Description) -> Iterator[Prob
             if base != tip and base not in set(robot.tree.list_ancestors(tip or "")):
                 yield Problem(
                     element,
-                    f"tip link '{tip}' is not a descendant of base link '{base}', so they are "
-                    "not a chain",
+                    f"tip link '{tip}' is not a descendant of base link '{base}', so the "
+                    "group has joints of another branch or above the base link",
                 )
 
 
