@@ -14,6 +14,7 @@ from generator.man import list_man_pages
 
 from tests.conftest import ROOT
 from urdftool import cli
+from urdftool.source.description_formats import NAMES
 
 MAN = sorted((ROOT / "docs" / "man").glob("*.1"))
 
@@ -36,7 +37,7 @@ def completed(*words, shell="bash"):
 def test_commands_are_completed():
     assert completed("li") == ["plain,lint"]
     assert completed("") == [f"plain,{name}" for name in cli.COMMANDS]
-    assert completed("export", "") == ["plain,urdf", "plain,sdf", "plain,mjcf", "plain,usd"]
+    assert completed("export", "") == [f"plain,{name}" for name in NAMES]
 
 
 def test_options_are_completed():

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from urdftool.source.description_formats import NAMES as FOLDERS
+
 PACKAGE = Path(__file__).parents[2] / "urdftool"
 FORMATS = PACKAGE / "formats"
-FOLDERS = ("urdf", "sdf", "mjcf", "usd")
 MODULES = sorted(FORMATS.rglob("*.py"))
 PROOFS = [
     path

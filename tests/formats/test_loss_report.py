@@ -6,11 +6,10 @@ from pathlib import Path
 import pytest
 
 from urdftool.compare.check import Check
-from urdftool.formats.registry import get_writable_formats
 from urdftool.report.exports import format_check_table
 from urdftool.rules import FAMILY_OF
+from urdftool.source.description_formats import NAMES
 
-LANGUAGES = [target.name for target in get_writable_formats()]
 FORMATS = Path(__file__).parents[2] / "urdftool" / "formats"
 
 BALL = '<visual><geometry><mesh filename="package://gone/meshes/{}.stl"/></geometry></visual>'
@@ -21,7 +20,7 @@ ARM = (
 )
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", NAMES)
 def test_a_package_that_is_not_found_is_one_message_with_the_option(urdftool, tmp_path, language):
     file = tmp_path / "robot.urdf"
     file.write_text(ARM)
@@ -33,7 +32,7 @@ def test_a_package_that_is_not_found_is_one_message_with_the_option(urdftool, tm
     assert last == "urdftool: no file was written: 1 error"
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", NAMES)
 def test_a_path_that_leads_nowhere_is_told_in_full(urdftool, tmp_path, language):
     file = tmp_path / "robot.urdf"
     file.write_text(ARM.replace("package://gone/meshes", "shapes"))
@@ -61,7 +60,7 @@ def test_defects_bear_the_names_that_lint_explains():
     assert {name for name in named if name not in FAMILY_OF} - own == set()
 
 
-@pytest.mark.parametrize("language", [name for name in LANGUAGES if name != "usd"])
+@pytest.mark.parametrize("language", [name for name in NAMES if name != "usd"])
 def test_where_nothing_weighs_anything_differences_are_what_they_are(urdftool, tmp_path, language):
     file = tmp_path / "robot.urdf"
     turns = '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/>'
@@ -94,7 +93,7 @@ def test_what_is_announced_of_many_is_one_line():
     )
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", NAMES)
 def test_a_branch_on_a_link_that_does_not_exist_is_no_loop(urdftool, tmp_path, language):
     file = tmp_path / "robot.urdf"
     joint = '<joint name="{}" type="fixed"><parent link="{}"/><child link="{}"/></joint>'

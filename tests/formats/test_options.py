@@ -12,8 +12,7 @@ import urdftool as api
 from tests.build import robot
 from urdftool.errors import ConfigError
 from urdftool.formats.common.option import get_default, list_options
-
-FORMATS = ("sdf", "mjcf", "usd", "urdf")
+from urdftool.source.description_formats import NAMES as FORMATS
 
 OF_COMMANDS = {
     *("robot", "named", "output", "package", "package_path", "gltf_up"),

@@ -8,7 +8,7 @@ from importlib import import_module
 
 import click
 
-from ..formats.registry import get_writable_formats
+from ..formats.registry import FORMATS
 from ..suggestions import suggest_name
 from .general_options import accept_general_options
 from .grouped_help import CommandGroup
@@ -19,7 +19,7 @@ class Formats(CommandGroup):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return their names."""
-        return [target.name for target in get_writable_formats()]
+        return [target.name for target in FORMATS]
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Return the command of a format; None for another name."""

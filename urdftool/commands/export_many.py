@@ -17,6 +17,7 @@ import click
 from ..console import Console
 from ..report.counted import format_count
 from ..report.json_text import format_json
+from ..source.description_formats import SUFFIXES
 from .grouped_help import GroupedCommand
 from .options import (
     add_jobs_option,
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-_ENDINGS = (".urdf.xacro", ".xacro", ".urdf", ".sdf", ".xml", ".mjcf", ".usd", ".usda", ".usdc")
 _MOST_NAMES = 5  # robots that the last line names; chosen, no source
 
 
@@ -185,7 +185,9 @@ def choose_places(files: Sequence[str], output: str) -> list[str]:
     places: list[str] = []
     for path in files:
         relative = os.path.relpath(os.path.abspath(path), root)
-        ending = next((end for end in _ENDINGS if relative.lower().endswith(end)), "")
+        ending = next(
+            (end for end in (".urdf.xacro", *SUFFIXES) if relative.lower().endswith(end)), ""
+        )
         stem = os.path.join(output, relative[: len(relative) - len(ending)])
         place, number = stem, 1
         while place in places:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ..console import Console
+from ..source.description_formats import SEVERAL_SUFFIXES
 from .grouped_help import NAMED
 
 if TYPE_CHECKING:
@@ -23,7 +24,6 @@ ASSIGN = ":="
 CHOSEN = "-r"
 """Key, among the xacro arguments, of the name of one of several robots in a file."""
 
-OF_SEVERAL = (".sdf", ".world", ".usd", ".usda", ".usdc", ".usdz")
 """Suffixes of files of several robots, one of which ``-r NAME`` after the file chooses."""
 
 
@@ -131,7 +131,7 @@ def _find_robots(words: Iterable[str]) -> Iterator[str]:
         if not word.startswith(NAMED):
             file = file if ASSIGN in word else word
             yield word
-        elif file.endswith(OF_SEVERAL) and os.path.isfile(file):
+        elif file.endswith(SEVERAL_SUFFIXES) and os.path.isfile(file):
             yield f"{CHOSEN}{ASSIGN}{word.removeprefix(NAMED)}"
             file = ""
         else:

@@ -7,13 +7,14 @@ import re
 from collections.abc import Iterable
 
 from ..lint.discover import has_ending, list_files
+from ..source.description_formats import OWN_XML_SUFFIXES, ROOTS
 
-ENDINGS = (".urdf", ".xacro", ".sdf", ".srdf", ".world", ".mjcf")
+ENDINGS = (*OWN_XML_SUFFIXES, ".srdf")
 _HEAD = 16_384
 """Bytes in which the root element must begin. Chosen, no source."""
 
 _ROOT = re.compile(
-    rb"\A(?:\xef\xbb\xbf)?(?:\s+|<\?.*?\?>|<!--.*?-->)*<(?:mujoco|mujocoinclude|robot|sdf)[\s/>]",
+    rb"\A(?:\xef\xbb\xbf)?(?:\s+|<\?.*?\?>|<!--.*?-->)*<(?:%s)[\s/>]" % "|".join(ROOTS).encode(),
     re.DOTALL,
 )
 

@@ -14,22 +14,20 @@ if TYPE_CHECKING:
 _PROLOG = re.compile(rb"\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)
 _TAG = re.compile(rb"<([\w:.-]+)")
 
-_FORMAT_OF = {b"sdf": "sdf", b"mujoco": "mjcf", b"mujocoinclude": "mjcf"}
-
 
 def format_of(file: SourceFile) -> Format:
     """Return the format of a file; URDF if the root element belongs to no format."""
-    from ..source.well_formed import STAGE_HEADS
+    from ..source.description_formats import ROOTS, URDF, find_by_head
     from .registry import format_named
 
-    if file.data.startswith(STAGE_HEADS):
-        return format_named("usd")
+    if found := find_by_head(file.data):
+        return format_named(found.name)
     data = file.data.removeprefix(b"\xef\xbb\xbf")
     at = 0
     while skipped := _PROLOG.match(data, at):
         at = skipped.end()
     tag = _TAG.match(data, at)
-    return format_named(_FORMAT_OF.get(tag[1] if tag else b"", "urdf"))
+    return format_named(ROOTS.get(tag[1].decode("latin-1") if tag else "", URDF).name)
 
 
 def read_other_format(file: SourceFile, packages: Packages, name: str = "") -> Robot | None:

@@ -1,10 +1,10 @@
 """Registry of the formats of robot descriptions.
 
-A format is a folder of this package and an entry in ``FORMATS``. The folder has
+A format is a folder of this package, a row of ``source.description_formats`` and one of
+``CANNOT_EXPRESS``. The folder has
 
-- ``read.py`` with ``read(path, **options) -> Reading``, if the format can be read;
-- ``write.py`` with ``write(robot, options) -> Written`` and ``options.py`` with ``Options``, if it
-  can be written;
+- ``read.py`` with ``read(path, **options) -> Reading``;
+- ``write.py`` with ``write(robot, options) -> Written`` and ``options.py`` with ``Options``;
 - ``checks.py`` with ``NOT_COMPARED``, and ``check_unwritten``, which compares a copy of an export
   with its source, or ``check_output``, which compares what is on disk.
 
@@ -18,6 +18,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
+
+from ..source.description_formats import DESCRIPTION_FORMATS
 
 if TYPE_CHECKING:
     from ..compare.check import Check
@@ -46,17 +48,13 @@ class Format:
         name: Name of its folder, also used on the command line.
         title: Display name.
         suffixes: File suffixes, in lower case.
-        can_read: Whether it has a reader.
-        can_write: Whether it has a writer.
         cannot_express: Codes of losses of URDF data that the format cannot express.
     """
 
     name: str
     title: str
     suffixes: tuple[str, ...]
-    can_read: bool = False
-    can_write: bool = False
-    cannot_express: tuple[str, ...] = ()
+    cannot_express: tuple[str, ...]
 
     def has_suffix(self, path: str | Path) -> bool:
         """Tell whether a path has a suffix of the format's files."""
@@ -122,49 +120,34 @@ class Format:
         return import_module(f".{self.name}.{name}", __package__)
 
 
-FORMATS = (
-    Format("urdf", "URDF and xacro", (".urdf", ".xacro"), can_read=True, can_write=True),
-    Format(
-        "sdf",
-        "SDF, for Gazebo",
-        (".sdf", ".xml", ".world"),
-        can_read=True,
-        can_write=True,
-        cannot_express=(
-            "lossy-calibration",
-            "lossy-safety",
-            "lossy-transmission",
-            "lossy-ros2-control",
-        ),
+CANNOT_EXPRESS = {
+    "urdf": (),
+    "sdf": (
+        "lossy-calibration",
+        "lossy-safety",
+        "lossy-transmission",
+        "lossy-ros2-control",
     ),
-    Format(
-        "mjcf",
-        "MJCF, for MuJoCo",
-        (".xml", ".mjcf"),
-        can_read=True,
-        can_write=True,
-        cannot_express=(
-            "lossy-calibration",
-            "lossy-safety-controller",
-            "lossy-plugin",
-            "lossy-velocity",
-        ),
+    "mjcf": (
+        "lossy-calibration",
+        "lossy-safety-controller",
+        "lossy-plugin",
+        "lossy-velocity",
     ),
-    Format(
-        "usd",
-        "USD, for Isaac Sim and Newton",
-        (".usda", ".usdc", ".usdz", ".usd"),
-        can_read=True,
-        can_write=True,
-        cannot_express=(
-            "lossy-calibration",
-            "lossy-safety-controller",
-            "lossy-plugin",
-            "lossy-sensor",
-            "lossy-transmission",
-            "lossy-ros2-control",
-        ),
+    "usd": (
+        "lossy-calibration",
+        "lossy-safety-controller",
+        "lossy-plugin",
+        "lossy-sensor",
+        "lossy-transmission",
+        "lossy-ros2-control",
     ),
+}
+"""Codes of losses of URDF data that a format cannot express."""
+
+FORMATS = tuple(
+    Format(one.name, one.title, one.suffixes, CANNOT_EXPRESS[one.name])
+    for one in DESCRIPTION_FORMATS
 )
 """Every format."""
 
@@ -176,8 +159,3 @@ def format_named(name: str) -> Format:
         KeyError: There is no such format.
     """
     return {format_.name: format_ for format_ in FORMATS}[name]
-
-
-def get_writable_formats() -> tuple[Format, ...]:
-    """Return the formats that have a writer."""
-    return tuple(format_ for format_ in FORMATS if format_.can_write)

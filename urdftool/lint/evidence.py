@@ -14,6 +14,7 @@ from ..model.gazebo_plugins import is_for_gz
 from ..model.references import list_blocks
 from ..source.comments import blank_comments
 from ..source.description import Description
+from ..source.description_formats import DESCRIPTION_FORMATS
 from ..source.document import Element
 from ..source.location import SourceFile
 from ..source.nearby_files import read_optional_file
@@ -23,8 +24,8 @@ from ..workspace import Workspace, memoize_by_workspace
 GENERATIONS = frozenset(("gz", "gazebo-classic"))
 """Targets that exclude each other, unless a package.xml depends on both."""
 
-TARGETS_OF = {"sdf": ("gz",), "mjcf": ("mujoco",), "usd": ("newton", "isaac")}
-"""Targets of a robot in each format other than URDF."""
+TARGETS_OF = {one.name: one.targets for one in DESCRIPTION_FORMATS if one.targets}
+"""Targets of a robot in each format that is made for simulators."""
 
 _CLASSIC_PREFIXES = ("libgazebo_", "libhector_", "libroboticsgroup_", "librotors_gazebo_")
 _DEPENDENCIES = {

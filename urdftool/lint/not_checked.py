@@ -9,9 +9,10 @@ from ..diagnostic import Severity
 from ..errors import PackageNotFound, SourceError, UrdftoolError
 from ..finding import Finding, Group
 from ..source.description import Description
+from ..source.description_formats import find_by_head
 from ..source.document import Element
 from ..source.location import Place, SourceFile
-from ..source.well_formed import STAGE_HEADS, WIDE
+from ..source.well_formed import WIDE
 
 _MESHES = (".stl", ".dae", ".obj", ".ply", ".glb", ".gltf", ".3ds", ".step", ".stp")
 _HEAD = 1024
@@ -38,7 +39,7 @@ def refuse_other_files(file: SourceFile) -> None:
         )
     text = tuple(start for start, _ in WIDE)  # has zero bytes
     is_xml = file.data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
-    if is_xml or file.data.startswith(text + STAGE_HEADS):
+    if is_xml or file.data.startswith(text) or find_by_head(file.data):
         return
     if b"\0" in file.data[:_HEAD]:
         raise SourceError("is a binary file, not a robot description", path=file.path)

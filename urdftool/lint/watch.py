@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from ..dependencies import Dependencies, Question, Stamp, read_stamp
+from ..source.description_formats import XML_SUFFIXES
 from .discover import list_files
 from .options import Options
 from .outcome import Report
@@ -25,7 +26,7 @@ _SHARE = 0.05
 """Share of the time that comparisons may take; chosen. More files are compared less often."""
 
 _ENDINGS = (
-    *(".urdf", ".xacro", ".sdf", ".mjcf", ".xml", ".srdf", ".toml"),
+    *(*XML_SUFFIXES, ".srdf", ".toml"),
     *(".launch", ".launch.py", ".launch.xml", "CMakeLists.txt"),
 )
 """Files below a named folder that make a robot, or say which files are robots."""

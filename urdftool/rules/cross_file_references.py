@@ -9,11 +9,11 @@ from itertools import islice
 from pathlib import Path
 
 from ..source.description import Description
+from ..source.description_formats import XML_SUFFIXES
 from ..source.packages import shorten_path
 from ..workspace import Workspace, memoize_by_workspace
 from .fix import FixContext, RefusedError
 
-DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
 _USES = (".yaml", ".yml", ".json", ".py", ".launch", ".lua", ".rviz", ".cpp", ".hpp", ".h", ".srdf")
 
 _MOST_FILES, _MOST_BYTES = 10_000, 2_000_000
@@ -41,7 +41,7 @@ def check_alone(context: FixContext, word: str, *, robots: bool, but: Collection
                 f"too many files around the description to search them for references to '{word}'"
             )
         path = file.path
-        named = path.endswith(_USES) or (path.endswith(DESCRIPTIONS) and robots)
+        named = path.endswith(_USES) or (path.endswith(XML_SUFFIXES) and robots)
         if named and file.contains_word(word) and real_path(path) not in mine:
             raise RefusedError(f"{shorten_path(path)} refers to '{word}' too")
 

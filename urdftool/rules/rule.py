@@ -71,6 +71,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..diagnostic import Severity
 from ..finding import Scope
+from ..source.description_formats import NAMES
 from .fix_traits import BOTH as BOTH
 from .fix_traits import SAFE as SAFE
 from .fix_traits import UNSAFE as UNSAFE
@@ -82,7 +83,7 @@ ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 GAZEBO = ("gazebo-classic", "gz")
 ROS = ("ros1", "ros2")
 
-ANY_FORMAT = ("urdf", "sdf", "mjcf", "usd")
+ANY_FORMAT = NAMES
 URDF_AND_SDF = ("urdf", "sdf")
 
 Check = Callable[..., Iterable[Problem]]

@@ -18,6 +18,7 @@ from ..lint.settings import Settings, check_selectors, check_targets
 from ..model.elements import Robot
 from ..projects import find_project
 from ..source.description import Description
+from ..source.description_formats import OWN_XML_SUFFIXES
 from ..source.document import Document, parse, read_file
 from ..source.expansion_server import ExpansionServer
 from ..source.location import SourceFile
@@ -34,7 +35,6 @@ MOST_BYTES = 4 << 20
 """Size [bytes] of a document that is checked while it is edited, and whose names are known; chosen:
 the largest of 219 has 142 kB, and a check of 2 MB takes 30 s."""
 
-_DESCRIPTIONS = (".urdf", ".xacro", ".sdf", ".mjcf", ".world")
 _NOT_ALONE = (".srdf", ".srdf.xacro")
 _ROOT = re.compile(rb"<(robot|mujoco|sdf)[\s>/]")
 _DECLARED = re.compile(r"<\?xml[^>]*?encoding\s*=\s*[\"']([\w.:-]+)")
@@ -247,7 +247,7 @@ class Knowledge:
         name = os.path.basename(path)
         if name.endswith(_NOT_ALONE) or name == "package.xml":
             return False
-        if name.endswith(_DESCRIPTIONS):
+        if name.endswith(OWN_XML_SUFFIXES):
             return True
         return name.endswith(".xml") and bool(_ROOT.search(self.read(path).data[:4096]))
 

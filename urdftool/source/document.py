@@ -22,8 +22,9 @@ from ..memo import Memo
 from ..projects import explain_link_out
 from ..workspace import STDIN as STDIN
 from ..workspace import Workspace
+from .description_formats import find_by_head
 from .location import Call, Place, SourceFile
-from .well_formed import MAX_DEPTH, STAGE_HEADS, run_parser
+from .well_formed import MAX_DEPTH, run_parser
 
 MAX_BYTES = 32 * 1024 * 1024
 """Of a file of a description; chosen, no source: the largest of 219 real ones has 142 kB."""
@@ -228,7 +229,7 @@ def read_file(path: str | Path, workspace: Workspace | None = None) -> SourceFil
 def _read_bounded(stream: BinaryIO) -> tuple[bytes, int]:
     """Return at most one byte more than the limit of a description, and the limit."""
     data = stream.read(MAX_BYTES + 1)
-    if not data.startswith(STAGE_HEADS):
+    if find_by_head(data) is None:
         return data, MAX_BYTES
     return data + stream.read(MAX_STAGE_BYTES + 1 - len(data)), MAX_STAGE_BYTES
 

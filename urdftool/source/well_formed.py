@@ -13,6 +13,7 @@ from typing import Any, Protocol
 from xml.parsers import expat
 
 from ..errors import XmlError
+from .description_formats import find_by_head
 from .location import Place, SourceFile
 
 MAX_DEPTH = 200  # nested elements; chosen, no source: the deepest of 219 real ones has 9
@@ -26,10 +27,6 @@ class OpenElement(Protocol):
     @property
     def tag(self) -> str:
         """Return the name."""
-
-
-STAGE_HEADS = (b"#usda", b"PXR-USDC", b"PK\x03\x04")
-"""First bytes of a stage of USD as text, binary and package."""
 
 
 def run_parser(parser: Any, file: SourceFile, stack: Sequence[OpenElement]) -> None:
@@ -124,8 +121,9 @@ def _explain(file: SourceFile, error: expat.ExpatError, offset: int) -> tuple[st
     data = file.data
     reason = expat.ErrorString(error.code) or str(error)
     closing = data[offset : data.find(b">", offset)].decode(file.encoding, "replace").strip("</ ")
-    if data.startswith(STAGE_HEADS):
-        return "the file is a stage of USD, not a URDF or xacro file", "not-well-formed", "no XML"
+    if found := find_by_head(data):
+        text = f"the file is {found.name.upper()}, not a URDF or xacro file"
+        return text, "not-well-formed", "no XML"
     if data.startswith(b"version https://git-lfs"):
         return (
             "the file is a Git LFS pointer, not its content; run 'git lfs pull'",
