@@ -25,7 +25,7 @@ _PLACES = 1e-6
 _PLACE = ("bodyName", "xyzOffset", "rpyOffset")
 """Parameters of plugins for Gazebo Classic that name a link and a pose in it."""
 
-_WITHOUT = {"mjcf": "MJCF", "usd": "USD"}
+_WITHOUT = frozenset(("mjcf", "usd"))
 """Formats without plugins of Gazebo."""
 
 
@@ -37,8 +37,7 @@ def compare_plugins(pair: Pair, comparison: Comparison) -> None:
     if formats == {"urdf"}:
         comparison.skipped[_ROW] = "in the row of simulator data"
         return
-    without = [name for form, name in _WITHOUT.items() if form in formats]
-    if without:
+    if without := sorted(form.upper() for form in formats & _WITHOUT):
         comparison.skipped[_ROW] = f"not in {' and '.join(without)}"
         return
     one, two = (list(bodies.robot.mounted_plugins) for bodies in (pair.a, pair.b))

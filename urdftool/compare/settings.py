@@ -179,7 +179,7 @@ def _compare_written(
 
 def _has(form: str, setting: Setting) -> bool:
     """Tell whether a format has a setting."""
-    return bool({"mjcf": setting.mjcf, "usd": setting.usd}.get(form, setting.path))
+    return bool(getattr(setting, form, setting.path))
 
 
 def measure_content(x: Content, y: Content) -> float:
