@@ -41,9 +41,9 @@ def count_effects(rule: Rule) -> tuple[int, int, int]:
     An effect counts once, however many readers have it.
     """
     sources = _read_json(_RULES / "effect_sources.json").get(rule.name, {})
-    rejecting = _read_json(_RULES / "effect_rejections.json").get(rule.name, {})
+    kinds = _read_json(_RULES / "effect_kinds.json").get(rule.name, {})
     run = sum(how.startswith(_RUN) for how in sources.values())
-    return run, sum(bool(readers) for readers in rejecting.values()), len(sources) - run
+    return run, sum("rejects" in of_kind for of_kind in kinds.values()), len(sources) - run
 
 
 def list_evidence(rule: Rule) -> list[str]:

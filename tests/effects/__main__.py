@@ -102,7 +102,7 @@ def write_packaged() -> None:
     """Write what rule pages quote, of the table and the recorded versions, a line a rule."""
     for path, record_ in (
         (table.PACKAGED, table.packaged()),
-        (table.REJECTIONS, table.rejections()),
+        (table.KINDS, table.kinds()),
     ):
         rules = (json.dumps({name: facts}, ensure_ascii=False) for name, facts in record_.items())
         path.write_text("{\n" + ",\n".join(rule[1:-1] for rule in rules) + "\n}\n", "utf-8")

@@ -15,6 +15,10 @@ A robot is a file of ``fixtures/rules/RULE``, or, without an ending, of ``fixtur
 after a colon stand edits that give it the defect: ``pendulum: OLD => NEW ;; OLD => NEW``. For
 sdformat an empty root link is given a mass, because it would load nothing of the robot otherwise;
 ``as written:`` before the name leaves it.
+
+``kind`` is a kind of effect that no run shows: ``as intended``, ``as written`` or ``only with the
+flag`` (:mod:`urdftool.lint.effect_kinds`). Runs show which readers reject the robot; where an
+effect names no kind, a reader gets another robot.
 """
 
 from __future__ import annotations
@@ -28,6 +32,8 @@ from typing import Any
 
 import yaml
 
+from urdftool.lint.effect_kinds import REJECTS
+
 from .expected import SAME_AS, differences, unlike
 from .readers import Robot
 
@@ -36,7 +42,7 @@ TABLE = ROOT / "fixtures" / "effects"
 RULES = ROOT / "fixtures" / "rules"
 RUNS = TABLE / "runs"
 VERSIONS = TABLE / "readers.json"
-REJECTIONS = ROOT / "urdftool" / "rules" / "effect_rejections.json"
+KINDS = ROOT / "urdftool" / "rules" / "effect_kinds.json"
 PACKAGED = ROOT / "urdftool" / "rules" / "effect_sources.json"
 
 AS_WRITTEN = "as written:"
@@ -79,6 +85,7 @@ class Row:
     runs: tuple[Run, ...]
     sources: tuple[str, ...]
     rejects: tuple[str, ...] = ()
+    kind: str = ""
 
 
 @cache
@@ -90,7 +97,7 @@ def rows() -> tuple[Row, ...]:
 def _rows_of(path: Path) -> Iterator[Row]:
     for rule, effects in (yaml.load(path.read_text("utf-8"), LOADER) or {}).items():
         for key, row in effects.items():
-            unknown = set(row) - {"says", "runs", "sources", "rejects"}
+            unknown = set(row) - {"says", "runs", "sources", "rejects", "kind"}
             if unknown:
                 raise ValueError(f"{path.name}: {rule}: {key}: unknown {sorted(unknown)}")
             runs = tuple(
@@ -99,7 +106,7 @@ def _rows_of(path: Path) -> Iterator[Row]:
                 for reader in readers.split(", ")
             )
             more = (tuple(row.get(name, ())) for name in ("sources", "rejects"))
-            yield Row(rule, key, row["says"], runs, *more)
+            yield Row(rule, key, row["says"], runs, *more, row.get("kind", ""))
 
 
 def robot_of(rule: str, robot: str) -> Robot:
@@ -158,13 +165,13 @@ def versions() -> dict[str, str]:
 _PROGRAMS = {"gz": "sdformat", "gazebo-classic": "sdformat"}
 
 
-def rejections() -> dict[str, dict[str, list[str]]]:
-    """List the readers that reject a robot with a defect: by rule and by key of the effect.
+def kinds() -> dict[str, dict[str, dict[str, list[str]]]]:
+    """List readers by the kind of an effect on them: by rule and by key of the effect.
 
-    A reader does so where all its runs of the row end in a rejection or a crash, or where the row
-    says so, as other runs of it are of a case that the finding excludes.
+    A reader rejects a robot where all its runs of the row end in a rejection or a crash, or where
+    the row says so, as other runs of it are of a case that the finding excludes.
     """
-    found: dict[str, dict[str, list[str]]] = {}
+    found: dict[str, dict[str, dict[str, list[str]]]] = {}
     for row in rows():
         readers = row.key.partition(" (")[0].split(", ")
         ends = {
@@ -180,8 +187,11 @@ def rejections() -> dict[str, dict[str, list[str]]]:
             for reader, found_ends in ends.items()
             if reader in row.rejects or (found_ends and set(found_ends) <= _REJECTED)
         ]
-        if rejecting:
-            found.setdefault(row.rule, {})[row.key] = rejecting
+        others = [reader for reader in readers if reader not in rejecting]
+        of_kind = {REJECTS: rejecting, row.kind: others if row.kind else []}
+        if any(of_kind.values()):
+            listed = {kind: names for kind, names in of_kind.items() if names}
+            found.setdefault(row.rule, {})[row.key] = listed
     return found
 
 

@@ -5,6 +5,7 @@ import re
 
 import pytest
 
+from urdftool.lint.effect_kinds import FLAGGED, INTENDED, REJECTS, WRITTEN
 from urdftool.report.rule_pages import get_effect_source
 from urdftool.rules import get_all_rules
 
@@ -97,9 +98,26 @@ def test_versions_are_recorded():
     assert set(titles) <= set(READERS)
 
 
-def test_lint_knows_which_readers_reject_a_robot():
-    assert json.loads(table.REJECTIONS.read_text("utf-8")) == table.rejections()
-    assert table.rejections()["unknown-parent-link"]
+def test_lint_knows_the_kinds_of_effects():
+    kinds = table.kinds()
+    assert json.loads(table.KINDS.read_text("utf-8")) == kinds
+    assert kinds["unknown-parent-link"]
+    named = {row.kind for row in table.rows()}
+    assert named == {"", INTENDED, WRITTEN, FLAGGED}
+
+
+def test_what_accepts_a_robot_says_so_in_its_kind():
+    """The words of an effect and its kind agree."""
+    accepts = re.compile(r"(accepts?|reads?|loads?) (it|the same robot)$")
+    for row in table.rows():
+        if accepts.match(row.says):
+            assert row.kind == INTENDED, row
+        if re.match(r"(takes? it as written|load the joint without limits)$", row.says):
+            assert row.kind == WRITTEN or row.key in kinds_of(row, REJECTS), row
+
+
+def kinds_of(row, kind):
+    return [key for key, found in table.kinds().get(row.rule, {}).items() if kind in found]
 
 
 def test_rule_pages_quote_the_table():

@@ -159,3 +159,14 @@ def test_mujoco_reads_urdf_only_if_its_code_mentions_it(tmp_path, mentions, repo
     (path.parent.parent / "other.py").write_text(f"import mujoco\n{mentions}\n")
     _show_infos(tmp_path, "dae-as-collision")
     assert ("dae-as-collision" in _codes(path)) is reported
+
+
+@pytest.mark.parametrize(
+    ("code", "severity"),
+    [("", "error"), ("import pydrake\nSimulator(d)\n", "warning"), ("import pybullet\n", "error")],
+)
+def test_what_all_readers_of_the_project_take_as_written_is_no_error(tmp_path, code, severity):
+    limit = '<limit lower="0" upper="0.04" effort="20" velocity="0.2"/>'
+    path = _make_project(tmp_path, code, ROBOT.replace(limit, ""))
+    found = {one.severity.label for one in check(path) if one.code == "missing-limit"}
+    assert found == {severity}

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Mapping
 from dataclasses import replace
-from functools import cache
-from pathlib import Path
 
 from .. import rules
 from ..finding import Finding
@@ -22,6 +19,7 @@ from ..rules.package.resolution import is_in_own_package
 from ..rules.rule import GAZEBO
 from ..source.description import Description
 from ..source.document import Element
+from .effect_kinds import REJECTS
 
 _THROUGH_URDFDOM = ("pinocchio", "KDL", "robot_state_publisher", "rviz", "moveit", "check_urdf")
 """Readers based on urdfdom, which fail where it rejects a robot."""
@@ -57,14 +55,6 @@ _OF_GEOMETRY = ("collision", "mesh", "visual")
 _IRREGULAR = {"have": "has", "do": "does", "are": "is", "go": "goes"}
 
 
-@cache
-def _read_table() -> dict[str, dict[str, list[str]]]:
-    """Return the readers that reject a file, by rule and key of the effect."""
-    path = Path(rules.__file__).with_name("effect_rejections.json")
-    found: dict[str, dict[str, list[str]]] = json.loads(path.read_text("utf-8"))
-    return found
-
-
 class Rejections:
     """What readers do not get of one robot: all of it, with the rules that report it, or parts.
 
@@ -73,8 +63,7 @@ class Rejections:
     """
 
     def __init__(self, robot: Robot | None) -> None:
-        """Read which effects are rejections, as recorded by ``python -m tests.effects``."""
-        self._table = _read_table()
+        """Find the readers that reject the robot for what may be reported by no rule that is on."""
         self._by_reader: dict[str, set[str]] = {}
         self._omitted: frozenset[str] = frozenset()  # links that Gazebo omits
         self._omitted_joints: frozenset[str] = frozenset()
@@ -140,13 +129,10 @@ class Rejections:
             for reader in find_rejecting_readers(ending, collides):
                 self._by_reader.setdefault(reader, set()).update(_OF_FORMAT)
 
-    def add(self, rule: str, keys: Iterable[str]) -> None:
-        """Add the rejections among the effects of a finding."""
-        known = self._table.get(rule)
-        if not known:
-            return
-        for key in keys:
-            for reader in known.get(key, ()):
+    def add(self, rule: str, kinds: Mapping[str, str]) -> None:
+        """Add the readers that reject the robot by the kinds of the effects of a finding."""
+        for reader, kind in kinds.items():
+            if kind == REJECTS:
                 others = _THROUGH_URDFDOM if reader == "urdfdom" else ()
                 for one in (reader, *others):
                     self._by_reader.setdefault(one, set()).add(rule)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Mapping
 from dataclasses import replace
 
 from ..diagnostic import Severity
 from ..finding import Finding
 from ..model.elements import Robot
 from ..rules.rule import Rule
+from .effect_kinds import FLAGGED, INTENDED, REJECTS, WRITTEN
 from .imported_readers import Use
 from .libraries import CHAIN, PLANNER, SCENE, TESSERACT
 
@@ -24,23 +25,6 @@ _KNOWN = frozenset(
 
 _OF_ROS = ("gazebo", "control", "moveit")
 """Families of rules about Gazebo, ROS and MoveIt."""
-
-_UNAFFECTED = re.compile(
-    r"(accept|read)s? it$|loads? it(: without .*)?$|(load|use)s? .*, and loads the robot$"
-    r"|load the robot anyway$|load the same robot|reads? it as intended$|ignores? (<gazebo>"
-    r"|the (version|declaration|soft limits|inertia))$|uses the convex hull"
-    r"|takes the folder of that name as the package$|load the robot without opening"
-)
-"""Effect on a reader to which the finding does not matter."""
-
-_UNAFFECTED_UNLESS_INERTIA = re.compile(r"accepts? it( without a message|: the shape is flat)$")
-"""The same, except for an inertia, which a reader then computes with."""
-
-_OF_FLAG = re.compile(r"URDF_USE_INERTIA_FROM_FILE")
-"""Effect on PyBullet of an inertia that it takes only with this flag."""
-
-_REQUIRED = "takes 0"
-"""Effect on PyBullet of an effort or velocity that is not written: both are of the drive."""
 
 _OF_DRIVES = frozenset(
     (
@@ -77,7 +61,7 @@ Its chains may lead from one branch to another: they are those of KDL.
 """
 
 
-def is_for_other_readers(rule: Rule, finding: Finding, used: Use) -> bool:
+def is_for_other_readers(rule: Rule, finding: Finding, used: Use, kinds: Mapping[str, str]) -> bool:
     """Tell whether a finding has effects only on readers that a project does not use.
 
     A project without dynamics uses no inertia and no drive. Readers of kinematics are named by no
@@ -88,12 +72,12 @@ def is_for_other_readers(rule: Rule, finding: Finding, used: Use) -> bool:
     if TESSERACT in used.readers and rule.name in _OF_SRDF:
         return False
     if rule.family in _OF_ROS:
-        return not _is_affected(rule, finding, used)
+        return not _is_affected(used, kinds)
     if not used.moving and is_of_dynamics(rule):
-        return not any("reject" in text for text in _select_effects(finding, used).values())
-    if rule.name == "mesh-not-found" and not _is_affected(rule, finding, used):
+        return not any(kind == REJECTS and is_used(one, used) for one, kind in kinds.items())
+    if rule.name == "mesh-not-found" and not _is_affected(used, kinds):
         return not any(key.startswith("pybullet") for key in finding.effects)  # found from above
-    if rule.family == "name" or not _has_readers(finding) or _is_affected(rule, finding, used):
+    if rule.family == "name" or not _has_readers(finding) or _is_affected(used, kinds):
         return False
     for kind, left_out in _LEFT_OUT.items():
         if kind in used.readers:
@@ -116,30 +100,18 @@ def _has_readers(finding: Finding) -> bool:
     return bool(keys) and _KNOWN.issuperset(keys)
 
 
-def _is_affected(rule: Rule, finding: Finding, used: Use) -> bool:
+def _is_affected(used: Use, kinds: Mapping[str, str]) -> bool:
     """Tell whether a finding changes what a reader of a project gets."""
-    for key, text in _select_effects(finding, used).items():
-        if _UNAFFECTED.match(text):
-            continue
-        if rule.family != "inertia" and _UNAFFECTED_UNLESS_INERTIA.match(text):
-            continue
-        if key == "pybullet":
-            if _OF_FLAG.search(text) and not used.keeps_inertia and rule.name != "missing-inertial":
-                continue
-            if text == _REQUIRED and rule.name in _OF_DRIVES:
-                continue
-        return True
-    return False
+    meant = {INTENDED} if used.keeps_inertia else {INTENDED, FLAGGED}
+    return any(kind not in meant for reader, kind in kinds.items() if is_used(reader, used))
 
 
-def _select_effects(finding: Finding, used: Use) -> dict[str, str]:
-    """Return the effect on each reader that a project uses, and on others than readers."""
-    return {
-        reader: text
-        for key, text in finding.effects.items()
-        for reader in key.split(", ")
-        if is_used(reader, used)
-    }
+def lower_severity(finding: Finding, used: Use, kinds: Mapping[str, str]) -> Finding:
+    """Return a finding that is no error if all readers of a project take the robot as it is."""
+    found = {kind for reader, kind in kinds.items() if reader in used.readers}
+    if finding.severity is not Severity.ERROR or not found or not found <= {INTENDED, WRITTEN}:
+        return finding
+    return replace(finding, severity=Severity.WARNING)
 
 
 def is_used(reader: str, used: Use) -> bool:

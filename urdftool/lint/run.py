@@ -30,6 +30,7 @@ from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
 from .completed_files import find_completing_code
 from .drake_directives import find_welded_links
+from .effect_kinds import find_kinds
 from .imported_readers import find_imported_readers
 from .libraries import TESSERACT
 from .meant import is_explained
@@ -51,6 +52,7 @@ from .other_readers import (
     is_of_dynamics,
     is_of_unmoved_robot,
     is_used,
+    lower_severity,
 )
 from .outcome import NOT_EXPANDED, Report
 from .placeholders import find_template_error, refuse_template
@@ -336,8 +338,10 @@ def _check_description(
                 finding = _convert_finding(rule, problem, settings, targets, robot)
                 if finding is None:
                     continue
-                if finding.effects:  # also of one that is off: its readers reject the robot
-                    rejections.add(rule.name, rule.select_keys(problem.effects))
+                kinds = find_kinds(rule.name, rule.select_keys(problem.effects), finding.effects)
+                rejections.add(rule.name, kinds)  # also of one that is off
+                if used is not None and settings.severity.get(rule.name) is None:
+                    finding = lower_severity(finding, used, kinds)
                 if not settings.is_pedantic_on(rule.name):
                     is_off = (
                         problem.pedantic
@@ -351,7 +355,7 @@ def _check_description(
                         or is_of_scenery(rule, finding, robot)
                         or (finding.severity is not Severity.ERROR and is_explained(problem))
                     )
-                    if not is_off and used and is_for_other_readers(rule, finding, used):
+                    if not is_off and used and is_for_other_readers(rule, finding, used, kinds):
                         count = report.for_other_readers.get(rule.name, 0)
                         report.for_other_readers[rule.name] = count + 1
                         report.about_dynamics += not used.moving and is_of_dynamics(rule)
