@@ -107,7 +107,10 @@ def test_the_last_lines_count_what_is_about_dynamics(tmp_path, urdftool):
 
 
 SDF = """<sdf version="1.9"><model name="box"><link name="a"><collision name="c"><geometry>
-<box><size>1 1 1</size></box></geometry></collision></link></model></sdf>"""
+<box><size>1 1 1</size></box></geometry></collision></link><link name="b"><inertial><mass>1</mass>
+<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial></link>
+<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis>
+</joint></model></sdf>"""
 
 
 @pytest.mark.parametrize(
