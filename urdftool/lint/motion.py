@@ -37,7 +37,9 @@ def is_link_unused(
     while name != "world" and name not in welded and name not in seen:
         seen.add(name)
         joint = robot.tree.get_parent_joint(name)
-        if joint is None or not joint.is_fixed:
+        if joint is None:  # the root, which MJCF fixes to the world unless it is free
+            return robot.base is not None and not robot.base.is_free
+        if not joint.is_fixed:
             return False
         name = joint.parent
     return name == "world" or name in welded

@@ -40,12 +40,14 @@ def _find_rigid_bodies(robot: Robot) -> dict[str, list[Link]]:
 
 
 def is_only_sliding(robot: Robot, link: Link) -> bool:
-    """Tell whether no joint between the link ``world`` and a link rotates it."""
+    """Tell whether no joint between the world and a link rotates it."""
     name, seen = link.name, set[str]()
     while name != "world" and name not in seen:
         seen.add(name)
         joint = robot.tree.get_parent_joint(name)
-        if joint is None or joint.type not in ("fixed", "prismatic"):
+        if joint is None:  # the root, which MJCF fixes to the world unless it is free
+            return robot.base is not None and not robot.base.is_free
+        if joint.type not in ("fixed", "prismatic"):
             return False
         name = joint.parent
     return name == "world"

@@ -37,6 +37,7 @@ SIZE_IN_DOUBT = (
     *("mesh-in-millimeters", "mesh-scaled-twice", "mesh-scale-outlier"),
     "non-positive-dimension",
 )
+_IN_DOUBT = (*SIZE_IN_DOUBT, "singular-inertia", "implausible-density")
 _SINGULAR = 1e-9
 """The part of the largest moment that counts as zero. Chosen, no source."""
 
@@ -293,7 +294,7 @@ def _find_large_inertias(
                 f"inertia of link '{link.name}' {found.sentence}{so or remedy}",
                 at=inertial.inertia,
                 severity=None if found.certain or exchanged else INFO,
-                caused_by=(*SIZE_IN_DOUBT, "singular-inertia", *(_CENTER if fits else ())),
+                caused_by=(*_IN_DOUBT, *(_CENTER if fits else ())),
                 effects=_select_readers(six),
                 alike=(found.axis, min(len(attached), 3), so or kind),
                 data={
@@ -304,7 +305,7 @@ def _find_large_inertias(
                 },
                 pedantic=is_identified(link)
                 or (found.amount < 2 and link.mass < _OF_GRAMS)
-                or (not found.certain and not exchanged and SHORTEST <= found.amount < 2),
+                or (not found.certain and SHORTEST <= found.amount < 2),
             )
 
 
