@@ -73,3 +73,10 @@ def test_pedantic_selects_rules_that_are_off_by_default(tmp_path):
     off = {rule.name for rule in get_all_rules() if not rule.default}
     assert not off & {f.code for f in _check(tmp_path)}
     assert off & {f.code for f in _check(tmp_path, select=["pedantic"])}
+
+
+def test_the_last_line_counts_what_is_off_by_default(tmp_path, urdftool):
+    file = tmp_path / "cart.urdf"
+    file.write_text(ROBOT.format(light=LIGHT, name="finger", comment=""))
+    told = "2 findings left out, infos and mild cases; --extend-select pedantic shows them"
+    assert told in urdftool("lint", file, "--no-cache").err

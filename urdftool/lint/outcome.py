@@ -43,6 +43,7 @@ class Report:
         for_other_readers: Number of findings by rule that are left out, because they have effects
             only on readers that the code of the project does not import.
         about_dynamics: Number of these that are about dynamics, which no code of it computes.
+        minor: Number of infos and cases of rules that are off by default.
         rows: Rows of the queries on which it depends; None if it is not in a cache.
     """
 
@@ -69,6 +70,7 @@ class Report:
     unread_meshes: dict[str, str] = field(default_factory=dict)
     for_other_readers: dict[str, int] = field(default_factory=dict)
     about_dynamics: int = 0
+    minor: int = 0
     rows: Sequence[tuple[Any, ...]] | None = field(default=None, compare=False, repr=False)
 
     @property

@@ -355,6 +355,7 @@ def _check_description(
                         or is_of_scenery(rule, finding, robot)
                         or (finding.severity is not Severity.ERROR and is_explained(problem))
                     )
+                    report.minor += bool(is_off)
                     if not is_off and used and is_for_other_readers(rule, finding, used, kinds):
                         count = report.for_other_readers.get(rule.name, 0)
                         report.for_other_readers[rule.name] = count + 1

@@ -125,6 +125,7 @@ def as_one(reports: Mapping[str, Report]) -> Report:
             for rule in sorted({rule for r in checked.values() for rule in r.for_other_readers})
         },
         about_dynamics=max(report.about_dynamics for report in checked.values()),
+        minor=max(report.minor for report in checked.values()),
     )
 
 

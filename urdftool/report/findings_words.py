@@ -105,19 +105,27 @@ def list_completed(outcome: Outcome) -> Iterator[str]:
 
 
 def list_left_out(outcome: Outcome) -> Iterator[str]:
-    """Yield how many findings are left out, because they concern nothing that the code does."""
-    count = sum(outcome.for_other_readers.values())
+    """Yield how many findings are left out, and why.
+
+    They concern nothing that the code of the project does, or are off by default.
+    """
     about_dynamics = sum(report.about_dynamics for report in outcome.reports)
-    others = count - about_dynamics
-    reasons = [
-        *["with effects only on readers that the project does not use"] * bool(others),
-        *["about dynamics, which no code here computes"] * bool(about_dynamics),
-    ]
+    counts = {
+        "with effects only on readers that the project does not use": (
+            sum(outcome.for_other_readers.values()) - about_dynamics
+        ),
+        "about dynamics, which no code here computes": about_dynamics,
+        "infos and mild cases": sum(report.minor for report in outcome.reports),
+    }
+    reasons = {reason: count for reason, count in counts.items() if count}
+    count = sum(reasons.values())
     if count:
-        if others and about_dynamics:
-            reasons = [f"{others} {reasons[0]}", f"{about_dynamics} {reasons[1]}"]
+        why = [
+            reason if len(reasons) == 1 else f"{number} {reason}"
+            for reason, number in reasons.items()
+        ]
         yield (
-            f"{format_count(count, 'finding')} left out, {', '.join(reasons)}; "
+            f"{format_count(count, 'finding')} left out, {', '.join(why)}; "
             f"--extend-select pedantic shows {'it' if count == 1 else 'them'}"
         )
 
