@@ -123,7 +123,7 @@ def _report_outside(link: Link, found: Misfit, attached: Sequence[str], also: st
         f"center of mass of link '{link.name}' {found.sentence}{also}",
         at=(link.inertial and link.inertial.origin) or link.inertial,
         severity=None if found.certain else INFO,
-        alike=(found.axis, min(len(attached), 3), bool(also)),
+        alike=(bool(attached), bool(also)),
         pedantic=is_identified(link) or (not found.certain and link.mass < _OF_GRAMS),
         data={"distance": found.amount, "axis": "xyz"[found.axis]},
     )

@@ -296,7 +296,7 @@ def _find_large_inertias(
                 severity=None if found.certain or exchanged else INFO,
                 caused_by=(*_IN_DOUBT, *(_CENTER if fits else ())),
                 effects=_select_readers(six),
-                alike=(found.axis, min(len(attached), 3), so or kind),
+                alike=(bool(attached), so or kind),
                 data={
                     "certain": found.certain,
                     "times": found.amount,
