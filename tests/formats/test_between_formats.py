@@ -196,3 +196,24 @@ def test_resistance_of_a_planar_joint_is_written_or_reported(write, tmp_path):
     assert {j.name: j.get_resistance("damping") for j in again.joints if j.has_axis} == {
         "j_x": 0.3, "j_y": 0.3, "j": 0.3,
     }  # fmt: skip
+
+
+def test_a_site_of_the_world_is_no_frame_of_an_sdf(write):
+    """A frame of a model of SDF cannot be attached to the world."""
+    body = f'<site name="target"/><body name="a">{BOX}</body><body name="b">{BOX}<site name="s"/>'
+    written = api.export_sdf(api.load(write("m.xml", mjcf(f"{body}</body>"))))
+    assert 'attached_to="world"' not in written.text
+    assert '<frame name="s" attached_to="b"' in written.text
+    assert [loss.name for loss in written.losses if loss.code == "lossy-frame"] == ["target"]
+
+
+@pytest.mark.library("pxr")
+def test_what_a_reader_left_out_is_not_compared_with_a_stage(write, tmp_path):
+    """The elements of an MJCF are compared in another MJCF only."""
+    body = f'<body name="a">{BOX}<body name="b"><joint name="j"/>{BOX}<body name="c">'
+    body += f'<joint name="k"/>{BOX}</body></body></body>'
+    rest = '<equality><joint joint1="k" joint2="j" polycoef="0 1 2 0 0"/></equality><actuator>'
+    rest += '<muscle joint="j" ctrlrange="0 1" lengthrange="-1 1"/></actuator></mujoco>'
+    robot = api.load(write("m.xml", mjcf(body).replace("</mujoco>", rest)))
+    rows = {c.name: c for c in api.export_usd(robot, tmp_path / "m.usda", verify=True).checks}
+    assert {rows[name].verdict for name in ("tree", "actuators")} == {"not compared"}

@@ -126,19 +126,21 @@ _PLUGINS_IN_ROW = "sdf"
 
 def compare_unread(pair: Pair, comparison: Comparison) -> None:
     """Record which rows of a comparison concern parts that a reader did not read."""
-    for part in list_unread(pair.a.robot, pair.b.robot):
+    has_elements = any(row.name == NATIVE for row in comparison.rows)
+    for part in list_unread(pair.a.robot, pair.b.robot, has_elements=has_elements):
         comparison.record_uncompared(part)
 
 
-def list_unread(a: Robot, b: Robot) -> Iterator[Uncompared]:
+def list_unread(a: Robot, b: Robot, *, has_elements: bool = True) -> Iterator[Uncompared]:
     """Yield the parts that a reader did not read, unless both files have them in equal words.
 
-    Nothing is yielded for what is compared as the elements of one format.
+    Nothing is yielded for what is compared as the elements of one format, if ``has_elements`` says
+    that these are compared.
     """
     if is_one_text(a, b):
         return
     yield from _list_unreadable(a, b)
-    sides = _collect(a, b), _collect(b, a)
+    sides = [_collect(one, two, has_elements=has_elements) for one, two in ((a, b), (b, a))]
     for code in dict.fromkeys((*sides[0], *sides[1])):
         one, two = (side.get(code, Counter()) for side in sides)
         is_known = a.format == b.format and all(text is not None for _, _, text in (*one, *two))
@@ -176,13 +178,13 @@ _Part = tuple[str, str, str | None]
 """Name of an unread part, why it is not read, and what is written of it; None if unknown."""
 
 
-def _collect(robot: Robot, other: Robot) -> dict[str, Counter[_Part]]:
+def _collect(robot: Robot, other: Robot, *, has_elements: bool) -> dict[str, Counter[_Part]]:
     """Return the unread parts of a robot by the code of their loss."""
     found: dict[str, Counter[_Part]] = {}
     for loss in robot.unread:
         code = loss.code.removeprefix("unread-")
         row = _find_row(robot, code, loss.severity)
-        if row is not None and not _is_compared_natively(row, robot, other):
+        if row is not None and not (has_elements and _is_compared_natively(row, robot, other)):
             if (code, robot.format) != ("plugin", _PLUGINS_IN_ROW):
                 found[code] = Counter(_list_parts(loss.data, loss.name, loss.message))
     return found

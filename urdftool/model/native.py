@@ -49,6 +49,14 @@ def _list_paths(rows: Iterable[Setting]) -> tuple[str, ...]:
     return tuple(path for row in rows for path in (row.path, row.also) if path)
 
 
+_OF_AXIS = (
+    *("xyz", "mimic", "use_parent_model_frame"),
+    *(f"limit/{end}" for end in LIMIT_NAMES),
+    *(path.removeprefix("axis/") for path in _list_paths((*RESISTANCE, *OF_JOINTS))
+      if path.startswith("axis/")),
+)  # fmt: skip
+"""Paths of what the robot has as values below each axis of a joint."""
+
 HELD_PATHS = {
     "collision": ("geometry", "pose", *_list_paths(SURFACE)),
     "visual": (
@@ -56,10 +64,9 @@ HELD_PATHS = {
         *_list_paths(APPEARANCE),
     ),
     "joint": (
-        *("parent", "child", "pose", "axis/xyz", "axis/mimic", "sensor", "plugin"),
-        *(f"axis/limit/{end}" for end in LIMIT_NAMES),
-        "axis/use_parent_model_frame",
-        *_list_paths((*RESISTANCE, *OF_JOINTS)),
+        *("parent", "child", "pose", "sensor", "plugin"),
+        *(f"{axis}/{path}" for axis in ("axis", "axis2") for path in _OF_AXIS),
+        *(path for path in _list_paths(OF_JOINTS) if not path.startswith("axis/")),
     ),
     "loop": ("parent", "child", "pose", "axis/xyz", "sensor", "plugin"),
     "world": (*NESTED, *_list_paths(OF_SDF)),

@@ -218,3 +218,83 @@ def test_a_body_that_a_camera_follows_is_not_merged(tmp_path):
         text = write(read(tmp_path / "a.xml").robot, Options(fuse=True)).text
         found.append('<body name="d"' in text)
     assert found == [False, True]
+
+
+DRIVEN = """<mujoco model="k"><compiler angle="radian"/>{asset}<worldbody><site name="w"/>
+<body name="b" pos="0 0 1"><geom name="g" type="box" size=".1 .1 .1"/>
+<body name="l" pos="0 0 .2"><joint name="j" axis="0 1 0" range="-1 1"/>
+<geom type="capsule" size=".02" fromto="0 0 0 0 0 .2"/>
+<body name="m" pos="0 0 .2"><joint name="k" axis="0 1 0" range="-1 1"/>
+<geom type="capsule" size=".02" fromto="0 0 0 0 0 .2"/></body></body>{body}</body></worldbody>
+<equality><joint joint1="k" joint2="j" polycoef="0.1 0.5 0 0 0"/></equality>
+<actuator>{first}<position name="p" joint="j" kp="10"/><velocity joint="j" kv="1"/></actuator>
+<keyframe><key name="home" qpos="{qpos}" ctrl="{ctrl}"/></keyframe></mujoco>"""
+"""Two actuators at a joint, a coupling and a key."""
+
+FIRST = '<motor name="m" site="w" gear="1 0 0 0 0 0"/>'
+
+
+@pytest.mark.parametrize(
+    ("options", "ctrl", "first"),
+    [
+        (Options(), "0.2 0.1", ""),
+        (Options(), "0.2 0.1", FIRST),  # which is not copied: the site is scenery
+        (Options(actuators="position"), "0.5", ""),
+        (Options(actuators="none"), "", ""),
+    ],
+)
+def test_a_key_has_the_controls_of_the_actuators_of_the_export(tmp_path, options, ctrl, first):
+    own = "0.3 0.2 0.1" if first else "0.2 0.1"
+    text = DRIVEN.format(asset="", body="", first=first, qpos="0.5 0.35", ctrl=own)
+    (tmp_path / "a.xml").write_text(text)
+    robot = read(tmp_path / "a.xml").robot
+    written = write(robot, options)
+    model = mujoco.MjModel.from_xml_string(written.text)
+    assert model.key_qpos[0] == pytest.approx((0.5, 0.35))
+    assert model.key_ctrl[0][: len(ctrl.split())] == pytest.approx([*map(float, ctrl.split())])
+    rows = {check.name: check.differing for check in verify_copy(robot, options, written)}
+    assert rows["other elements"] == []
+    changed = [
+        one for one in written.losses if one.message.startswith("<key> 'home': ctrl changed")
+    ]
+    assert bool(changed) is (ctrl != own)
+
+
+@pytest.mark.parametrize("key", ["", '<keyframe><key name="low" qpos="0.1 0.2"/></keyframe>'])
+def test_what_a_model_says_that_attaches_another_is_kept(tmp_path, key):
+    """Sections are copied, but those that the other model adds to, which are made anew."""
+    part = DRIVEN.format(asset="", body="", first="", qpos="0 0", ctrl="0 0")
+    part = part.partition("<equality>")[0].replace('name="w"', 'name="v"') + f"{key}</mujoco>"
+    (tmp_path / "part.xml").write_text(part)
+    text = DRIVEN.format(
+        asset='<asset><model name="part" file="part.xml"/></asset>',
+        body='<attach model="part" body="b" prefix="A_"/>',
+        first="",
+        qpos="0.5 0.35 0.3 0.2",
+        ctrl="0.2 0.1",
+    )
+    (tmp_path / "a.xml").write_text(text)
+    robot = read(tmp_path / "a.xml").robot
+    written = write(robot, Options())
+    model = mujoco.MjModel.from_xml_string(written.text)
+    assert model.key_qpos[0] == pytest.approx((0.5, 0.35, 0.3, 0.2))
+    assert model.eq_solref[0] == pytest.approx((0.02, 1))
+    rows = {check.name: check for check in verify_copy(robot, Options(), written)}
+    assert [check.name for check in rows.values() if check.verdict == "differs"] == []
+    assert rows["configurations"].verdict == ("announced" if key else "equal")
+    if not key:
+        assert model.key_ctrl[0] == pytest.approx((0.2, 0.1))
+
+
+def test_the_range_of_a_joint_that_an_equality_holds_is_kept(tmp_path):
+    """The limits of the robot are where the equality holds it."""
+    held = DRIVEN.format(asset="", body="", first="", qpos="0 0.1", ctrl="0 0")
+    held = held.replace('joint1="k" joint2="j" polycoef="0.1 0.5', 'joint1="k" polycoef="0.3 0')
+    (tmp_path / "a.xml").write_text(held)
+    robot = read(tmp_path / "a.xml").robot
+    written = write(robot, Options())
+    model = mujoco.MjModel.from_xml_string(written.text)
+    assert model.jnt_range[1] == pytest.approx((-1, 1))
+    (tmp_path / "b.xml").write_text(held.replace('"k" axis="0 1 0" range="-1', '"k" range="-2'))
+    differences = compare_robots(robot, read(tmp_path / "b.xml").robot).differences
+    assert "@range" in {one.what for one in differences}

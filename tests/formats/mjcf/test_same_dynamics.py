@@ -72,7 +72,8 @@ def test_a_difference_is_reported(tmp_path, code):
 
 def test_settings_that_attached_models_keep_from_being_copied_are_reported(tmp_path):
     (tmp_path / "part.xml").write_text(
-        f'<mujoco model="p"><worldbody>{BODIES}</worldbody></mujoco>'
+        f'<mujoco model="p"><worldbody>{BODIES}</worldbody>'
+        '<equality><weld body1="b" active="false"/></equality></mujoco>'
     )
     source = tmp_path / "m.xml"
     source.write_text(

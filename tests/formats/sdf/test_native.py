@@ -84,3 +84,20 @@ def test_other_formats_do_not_copy_them(tmp_path):
     assert "unread-light" in {loss.code for loss in written.losses}
     made = api.load(next((tmp_path / "m").glob("*.xml")))
     api.export_sdf(made, tmp_path / "b.sdf", verify=True)
+
+
+def test_values_of_a_second_axis_are_those_of_the_second_joint(tmp_path):
+    """A universal joint is two joints in the robot, so no element of it is left."""
+    joint = '<joint name="u" type="universal"><parent>a</parent><child>b</child><axis/><axis2>'
+    joint += "<xyz>0 1 0</xyz><limit><lower>-1</lower><upper>1</upper></limit>{}</axis2></joint>"
+    native = []
+    for more in ("", "<shade>1</shade>"):
+        path = tmp_path / "m.sdf"
+        links = f'<link name="a">{INERTIAL}</link><link name="b">{INERTIAL}</link>'
+        path.write_text(
+            f'<sdf version="1.9"><model name="m">{links}{joint}</model></sdf>'.format(more)
+        )
+        robot = api.load(path)
+        native.append([one.section for one in robot.native if one.section.startswith("joint")])
+        assert "axis2" not in api.export_sdf(robot).text or more
+    assert native == [[], ["joint u"]]

@@ -12,6 +12,9 @@ from ...compare.check import Check
 from ...model.elements import Robot
 from ...model.settings import RESISTANCE
 
+ROUNDING = 1e-9
+"""Largest difference of positions [rad or m] that are equal; chosen, above rounding errors."""
+
 _Parts = Sequence[tuple[Hashable, str]]
 """Keys and names of parts."""
 
@@ -38,7 +41,7 @@ def announce_additions(checks: Sequence[Check], source: Robot, planned: Robot) -
         "surface": _list_added_contact(*sides),
         "actuators": _compare_keys(drives, " with kinds and gains of the export"),
         "contact pairs": _compare_keys(pairs),
-        "configurations": _compare_keys(states),
+        "configurations": (*_compare_keys(states), *_list_changed_states(*sides)),
     }
     for check in checks:
         check.announced += rows.get(check.name, ())
@@ -56,6 +59,21 @@ def _describe(what: str, names: Sequence[str], remark: str = "") -> Iterator[str
     if names:
         more = " and so on" if len(names) > 1 else ""
         yield f"{what}: {len(names)}{remark} ('{names[0]}'{more})"
+
+
+def _list_changed_states(source: Robot, planned: Robot) -> Iterator[str]:
+    """Yield a text with the configurations of the source that an option or the export changes."""
+    known = {one.name: one.positions for one in source.configurations}
+    changed = [
+        state.name
+        for state in planned.configurations
+        if any(
+            abs(state.positions[joint] - value) > ROUNDING
+            for joint, value in known.get(state.name, {}).items()
+            if joint in state.positions
+        )
+    ]
+    return _describe("changed", changed)
 
 
 def _list_added_dynamics(source: Robot, planned: Robot) -> Iterator[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
+from types import MappingProxyType
 
 from ...errors import ConfigError, ModelError
 from ...model.elements import Joint, Robot
@@ -43,11 +44,12 @@ def choose_home_positions(
     state: str,
     srdf: Srdf | None,
     written: Written,
+    described: Mapping[str, float] = MappingProxyType({}),
 ) -> HomePositions:
     """Choose joint positions [rad, m] at home, within limits and consistent with mimic joints.
 
     Sources in order of precedence: the user's pose, a group state of the SRDF, the initial values
-    of ros2_control, and zero or the limit nearest to it.
+    of ros2_control, the home of the description, and zero or the limit nearest to it.
 
     Args:
         robot: The robot.
@@ -56,6 +58,7 @@ def choose_home_positions(
             without such a state is a pose in which the robot stands.
         srdf: The SRDF, if there is one.
         written: Receives the positions beyond limits.
+        described: Positions of the home of the description, by joint.
 
     Raises:
         ConfigError: The SRDF has no such state.
@@ -67,6 +70,7 @@ def choose_home_positions(
     stands = state == STAND and (srdf is None or state not in srdf.states)
     found: dict[str, float] = {}
     for source, positions in (
+        ("its description", described),
         ("ros2_control", list_initial_positions(robot)),
         ("the SRDF", _get_state(srdf, "" if stands else state)),
         ("--pose", pose),

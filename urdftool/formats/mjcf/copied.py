@@ -66,6 +66,13 @@ def has_copied_home(robot: Robot, options: Options) -> bool:
     return any(e.section == "keyframe" and e.name == "home" for e in list_native(robot))
 
 
+def get_described_home(robot: Robot, options: Options) -> Mapping[str, float]:
+    """Return the joint positions of a key ``home`` that is not copied but written anew, by name."""
+    if has_copies(robot, "keyframe") or options.pose or options.state or options.srdf is not None:
+        return {}
+    return next((one.positions for one in robot.configurations if one.name == "home"), {})
+
+
 def list_uncopied(robot: Robot, unread: Iterable[Finding]) -> Iterator[Finding]:
     """Yield what the reader left out and an export does not copy."""
     codes = {

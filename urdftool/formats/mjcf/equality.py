@@ -8,7 +8,7 @@ from ...diagnostic import Severity
 from ...model.elements import Joint
 from ...model.numbers import format_numbers_text
 from ..written import Written
-from .loops import STIFF, build_loop_equalities
+from .loops import build_loop_equalities, get_softness
 from .structure import Structure, get_locked_at
 
 
@@ -22,7 +22,7 @@ def build_equality_section(structure: Structure, written: Written) -> etree._Ele
             continue
         held = get_locked_at(joint)
         if held is not None:
-            _hold(joint, held, section)
+            _hold(structure, joint, held, section)
     section.extend(build_loop_equalities(structure))
     return section if len(section) else None
 
@@ -43,7 +43,7 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
         _report_mimic_loss(joint, "its motion is not coupled", written)
     elif structure.get_kind(leader) == "weld":
         held = mimic.offset + mimic.multiplier * structure.locked.get(leader.name, 0.0)
-        _hold(joint, held, section)
+        _hold(structure, joint, held, section)
         written.report_loss(
             "mimic-fixed",
             f"joint '{joint.name}' mimics '{mimic.joint}', which is fixed; it is held at {held:g}",
@@ -60,19 +60,21 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
         )
     else:
         coefficients = (mimic.offset, mimic.multiplier, 0, 0, 0)
-        section.append(_build_equality(joint, coefficients, joint2=leader.name))
+        section.append(_build_equality(structure, joint, coefficients, joint2=leader.name))
 
 
-def _hold(joint: Joint, value: float, section: etree._Element) -> None:
-    section.append(_build_equality(joint, (value, 0, 0, 0, 0)))
+def _hold(structure: Structure, joint: Joint, value: float, section: etree._Element) -> None:
+    section.append(_build_equality(structure, joint, (value, 0, 0, 0, 0)))
 
 
-def _build_equality(joint: Joint, coefficients: tuple[float, ...], **leader: str) -> etree._Element:
+def _build_equality(
+    structure: Structure, joint: Joint, coefficients: tuple[float, ...], **leader: str
+) -> etree._Element:
     attributes = {
         "joint1": joint.name,
         **leader,
         "polycoef": format_numbers_text(coefficients),
-        **STIFF,
+        **get_softness(structure),
     }
     return etree.Element("joint", attributes)
 

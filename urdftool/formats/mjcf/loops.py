@@ -30,6 +30,11 @@ ARM = 0.1
 """Distance [m] of a second point along the axis of a spatial loop; chosen, no source."""
 
 
+def get_softness(structure: Structure) -> dict[str, str]:
+    """Return the softness of the equalities that an export makes, that of MuJoCo for an MJCF."""
+    return {} if structure.robot.format == "mjcf" else STIFF
+
+
 def list_loops(structure: Structure) -> list[Closure]:
     """Return the connections of a robot that can be exported."""
     return [one for one in structure.robot.closures if _get_kind(one) is not None]
@@ -143,7 +148,7 @@ def _get_pose(structure: Structure, link: str) -> Pose:
 
 def build_loop_equalities(structure: Structure) -> Iterator[etree._Element]:
     """Yield ``<connect>`` and ``<weld>`` for each equality of a plan; MJCF has its own softness."""
-    softness = {} if structure.robot.format == "mjcf" else STIFF
+    softness = get_softness(structure)
     for closure in structure.robot.closures:
         bodies = {"body1": structure.get_body_name(closure.parent)}
         other = closure.child

@@ -6,12 +6,14 @@ reported, if the export has not what it names.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lxml import etree
 
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.mechanism import NativeElement
-from ...model.numbers import format_numbers_text
+from ...model.numbers import format_numbers_text, number_text
 from ..common.drive_choice import AUTO
 from ..common.naming import get_free_name
 from ..written import Written
@@ -48,29 +50,76 @@ def add_native(
         elif element.section in MERGED:
             _merge(element, _get_section(sections, element.section))
     classes = _add_classes(robot, sections["default"])
+    kept: list[NativeElement] = []  # actuators that are copied
     for tag in COPIED:
         if tag in MERGED or (tag == "actuator" and options.actuators not in AUTO):
             continue
         if tag == "keyframe" and not _has_same_positions(structure, written):
             continue
         copied = [element for element in robot.native if element.section == tag]
-        if tag == "keyframe" and not has_copied_home(robot, options):
-            copied = [element for element in copied if element.name != "home"]
-        _copy_section(copied, tag, sections, names, classes, written)
+        if tag == "keyframe":
+            copied = _fit_keys(robot, options, copied, kept, written)
+        done = _copy_section(copied, tag, sections, names, classes, written)
+        kept = done if tag == "actuator" else kept
     if has_copied_actuators(robot, options) and not has_copied_home(robot, options):
-        _set_controls(structure, sections)
+        _set_controls(structure, kept, sections)
 
 
-def _set_controls(structure: Structure, sections: Sections) -> None:
+def _fit_keys(
+    robot: Robot,
+    options: Options,
+    keys: list[NativeElement],
+    kept: list[NativeElement],
+    written: Written,
+) -> list[NativeElement]:
+    """Return the keys to copy, with the controls of the actuators that the export has.
+
+    Args:
+        robot: The robot with the choices of the export.
+        options: Options of the export.
+        keys: Keys of the source.
+        kept: Actuators of the source that the export has.
+        written: Receives the controls that are not copied.
+    """
+    if not has_copied_home(robot, options):
+        keys = [key for key in keys if key.name != "home"]
+    actuators = [element for element in robot.native if element.section == "actuator"]
+    if len(kept) == len(actuators) and not (robot.joint_actuators and not actuators):
+        return keys
+    fitted = []
+    for key in keys:
+        lost = [name for name in ("ctrl", "act") if name in key.attributes]
+        attributes = {name: v for name, v in key.attributes.items() if name not in lost}
+        if lost:
+            why = f"{' and '.join(lost)} changed: the export has other actuators"
+            _report(key, why, written)
+        controls = key.attributes.get("ctrl", "").split()
+        if not has_copied_actuators(robot, options):
+            held = next((c.positions for c in robot.configurations if c.place == key.place), {})
+            controls = [
+                number_text(held.get(one.joint, 0.0) if one.mode == "position" else 0.0)
+                for one in robot.joint_actuators
+            ]
+        elif controls:
+            places = {id(one) for one in kept}
+            controls = [
+                text for text, one in zip(controls, actuators, strict=False) if id(one) in places
+            ]
+        if controls:
+            attributes["ctrl"] = " ".join(controls)
+        fitted.append(replace(key, attributes=attributes))
+    return fitted
+
+
+def _set_controls(structure: Structure, kept: list[NativeElement], sections: Sections) -> None:
     """Write the controls of the export's own key for the copied actuators."""
     robot = structure.robot
     of = {str(actuator.place): actuator.joint for actuator in robot.joint_actuators
           if actuator.mode == "position"}  # fmt: skip
     (home,) = (one.positions for one in robot.configurations if one.name == "home")
-    controls = [home.get(of.get(str(element.place), ""), 0.0)
-                for element in robot.native if element.section == "actuator"]  # fmt: skip
+    controls = [home.get(of.get(str(element.place), ""), 0.0) for element in kept]
     for key in sections["keyframe"]:
-        if key.get("name") == "home" and len(controls) == len(sections["actuator"]):
+        if key.get("name") == "home":
             key.set("ctrl", format_numbers_text(controls))
 
 
@@ -167,10 +216,15 @@ def _copy_section(
     names: dict[str, set[str]],
     classes: dict[str, str],
     written: Written,
-) -> None:
-    """Copy the elements of a section; those that the export built stay if they are others."""
+) -> list[NativeElement]:
+    """Copy the elements of a section; those that the export built stay if they are others.
+
+    Returns:
+        The elements that are copied.
+    """
     if not copied:
-        return
+        return []
+    done: list[NativeElement] = []
     section, kind = _get_section(sections, tag), tag if tag in REFERENCES else ""
     built = [e for e in section if not _is_copy(e, tag, copied)]
     section[:] = built if tag in ("contact", "custom") else []
@@ -184,9 +238,11 @@ def _copy_section(
         made = _build(element)
         _set_class(made, tag, classes)
         section.append(made)
+        done.append(element)
         names.setdefault(kind, set()).add(element.name)
     if tag not in ("contact", "custom"):
         section.extend(built)
+    return done
 
 
 def _is_copy(built: etree._Element, tag: str, copied: list[NativeElement]) -> bool:

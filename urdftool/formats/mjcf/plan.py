@@ -30,7 +30,7 @@ from ..common.upright import turn_upright
 from ..written import Written
 from .actuator import SINGLE, plan_actuators
 from .contact import plan_exclusions
-from .copied import has_copied_home, has_copies
+from .copied import get_described_home, has_copied_home, has_copies
 from .for_rl import add_rotors, find_feet, list_joint_sensors, set_foot_contact
 from .gazebo import USUAL_FRICTION
 from .home import Home, place_home
@@ -82,7 +82,10 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
     structure = create_structure(robot, keep_locked=keep_locked)
     report_locked_joints(structure, written)
     boxes = ShapeBoxes(robot)
-    chosen = choose_home_positions(robot, options.pose, options.state, srdf, written)
+    home_of_source = get_described_home(robot, options)
+    chosen = choose_home_positions(
+        robot, options.pose, options.state, srdf, written, home_of_source
+    )
     virtual_joint = srdf.virtual_joint if srdf else None
     base = options.base
     free, reason = decide_base(structure, base, virtual_joint, boxes, chosen.values, written)

@@ -62,6 +62,7 @@ class Compiled:
         warnings: Warnings of the compiler.
         values: Values of the elements of each section of ``KINDS``, in their order.
         poses: Generalized positions of the free and ball joints in each keyframe.
+        written: Line and name of the elements of each section of ``KINDS``.
         discards_visuals: Whether MuJoCo removes visuals, which are kept here.
         error: Reason why it does not compile; empty if it does.
         error_line: Line of the error; 0 if unknown.
@@ -74,6 +75,7 @@ class Compiled:
     warnings: list[str]
     values: dict[str, list[dict[str, tuple[float, ...]]]] = field(default_factory=dict)
     poses: list[tuple[float, ...]] = field(default_factory=list)
+    written: dict[str, list[tuple[int, str]]] = field(default_factory=dict)
     discards_visuals: bool = False
     error: str = ""
     error_line: int = 0
@@ -136,7 +138,12 @@ def _compile(
     keys = [(names[i], model.key_qpos[i].tolist()) for i in range(model.nkey)]
     values = {tag: _list_numbers_of(spec, model, *kind) for tag, kind in KINDS.items()}
     poses = _list_poses(model, mujoco)
-    return Compiled(spec.modelname, rows, keys, list(dict.fromkeys(texts)), values, poses, discards)
+    written = {
+        tag: [(_get_line(one), str(one.name)) for one in getattr(spec, elements)]
+        for tag, (_, elements) in KINDS.items()
+    }
+    texts = list(dict.fromkeys(texts))
+    return Compiled(spec.modelname, rows, keys, texts, values, poses, written, discards)
 
 
 def _list_poses(model: Any, mujoco: Any) -> list[tuple[float, ...]]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from ...diagnostic import Severity
 from ...model.elements import Robot
 from ...model.mechanism import NativeElement
+from ...model.numbers import format_numbers_text
 from ...model.part import Part
 from ...model.provenance import Written
 from ...model.world_settings import OF_MUJOCO
@@ -44,16 +45,42 @@ def add_native(context: Context, robot: Robot) -> None:
     text = _parse_text(context)
     robot.native = [*_list_sections(context, text), *_list_parts(context, text)]
     _mark_held(robot)
-    setting = "created" if _has_created_elements(text) else "setting"
+    copied = _find_copied(context, text)
     for root in text.roots:
         for section in root.children:
             if section.tag in COPIED:
+                setting = (
+                    "setting" if root is text.roots[0] and section.tag in copied else "created"
+                )
                 _report_section(context, section, setting)
 
 
-def _has_created_elements(text: _Text) -> bool:
-    """Tell whether a model makes elements from others; its sections are then not copied."""
-    return any(element.tag in _CREATING for element in text.lines.values())
+def _find_copied(context: Context, text: _Text) -> set[str]:
+    """Return the tags of the sections of which an export copies the elements as they are written.
+
+    Elements that a model makes of others, such as those of a model that it attaches, are not
+    written with their names: a section is copied if the compiled model has just what it writes.
+    """
+    if not any(element.tag in _CREATING for element in text.lines.values()):
+        return set(COPIED)
+    main, *attached = text.roots
+    others = {section.tag for root in attached for section in root.children if section.children}
+    copied = {tag for tag in COPIED if tag in MERGED or tag not in others}
+    keys = [(0, name) for name, _ in context.compiled.keys]  # whose lines MuJoCo does not keep
+    for tag, written in [*context.compiled.written.items(), ("keyframe", keys)]:
+        elements = [
+            element
+            for section in main.children
+            if section.tag == tag
+            for element in section.children
+            if tag != "contact" or element.tag == "pair"
+        ]
+        lines = [0 if tag == "keyframe" else _get_line(one) for one in elements]
+        if written != [
+            (line, e.get("name") or "") for line, e in zip(lines, elements, strict=True)
+        ]:
+            copied.discard(tag)
+    return copied
 
 
 def _mark_held(robot: Robot) -> None:
@@ -115,9 +142,8 @@ def _get_line(element: Element) -> int:
 
 def _list_sections(context: Context, text: _Text) -> Iterator[NativeElement]:
     """Yield the elements of the sections that are copied, and their default classes."""
-    if _has_created_elements(text):
-        return
-    for tag in COPIED:
+    copied = _find_copied(context, text)
+    for tag in (tag for tag in COPIED if tag in copied):
         made = [
             _make_native(context, tag, element)
             for section in text.roots[0].children
@@ -183,6 +209,7 @@ def _prune(context: Context, element: Element) -> NativeElement | None:
 def _list_parts(context: Context, text: _Text) -> Iterator[NativeElement]:
     """Yield the copied attributes of bodies, joints and others; report those that are not read."""
     defaults = [Defaults(root) for root in text.roots]
+    held = _list_held_joints(context)
     for tag, (moving, shown) in PARTS.items():
         for number, row in enumerate(context.compiled.rows.get(tag, ())):
             element, name = text.lines.get(row["line"]), _get_name(context, tag, number, row)
@@ -192,6 +219,8 @@ def _list_parts(context: Context, text: _Text) -> Iterator[NativeElement]:
             attributes = root.resolve(element)
             written = context.get_place(row)
             kept = {a: v for a, v in attributes.items() if a in (*moving, *shown)}
+            if tag == "joint" and number in held and row["limited"]:
+                kept["range"] = format_numbers_text(row["range"])
             if kept:
                 yield _make_part(context, tag, name, row, kept)
             for attribute in _list_unread(context, tag, row, attributes):
@@ -199,6 +228,18 @@ def _list_parts(context: Context, text: _Text) -> Iterator[NativeElement]:
                 code = code if attribute in kept and name else "attribute"
                 label = f"{attribute} of <{tag}> {row['name']}".strip()
                 _report(context, code, label, written, attributes.get(attribute))
+
+
+def _list_held_joints(context: Context) -> set[int]:
+    """Return the numbers of the joints that an equality holds, which are the limits in the robot.
+
+    Their own range counts where the equality is switched off.
+    """
+    return {
+        row["obj1id"]
+        for row in context.list_rows("equality")
+        if row["type"] == "joint" and row["obj2id"] < 0 and row["active0"]
+    }
 
 
 def _make_part(

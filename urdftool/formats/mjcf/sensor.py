@@ -21,6 +21,7 @@ from ...model.settings import get_number
 from ..common.naming import UniqueNames
 from ..common.shape_box import get_shape_size
 from ..written import Written
+from .copied import has_copies
 from .structure import Structure
 
 WIDEST = 2.8
@@ -137,9 +138,10 @@ class _Planner:
 
     def report(self, sensor: MountedSensor, why: str) -> None:
         """Report a sensor that is not exported completely."""
+        what = f"sensor '{sensor.name}'" if sensor.name else "an unnamed sensor"
         self.written.report_loss(
             "sensor",
-            f"sensor '{sensor.name}' is not exported completely: {why}",
+            f"{what} is not exported completely: {why}",
             sensor.place,
             kind="sensor",
             name=sensor.name,
@@ -157,6 +159,8 @@ def plan_sensors(
         link = sensor.link or ("" if joint is None else joint.child)
         if robot.format == "mjcf":
             planner.plan.sensors.append(sensor)
+            if not (sensor.joint or sensor.site or has_copies(robot, "sensor")):
+                planner.report(sensor, "it is neither at a joint nor at a site")
         elif link in robot.link:
             _plan_sensor(planner, sensor, link)
             planner.report_parameters(sensor)

@@ -36,7 +36,7 @@ from .declared_losses import EFFORT, EXCUSES, INERTIA, TORN
 from .options import Options
 from .read import read
 from .read_compile import LIMITS
-from .verify_defaults import check_defaults
+from .verify_defaults import SOFT, STIFF, check_defaults
 from .verify_fuse import fuse_check
 from .verify_home import check_home
 from .verify_looks import check_material
@@ -233,7 +233,8 @@ def _compare_compiled(
     yield _check_centroid(mechanics, compiled, configurations, declared)
     ranges = list_force_ranges(expected) if robot.format == "mjcf" else _list_efforts(expected)
     yield _check_efforts(ranges, compiled, declared)
-    yield check_defaults(compiled, list_copied(robot))
+    softness = SOFT if robot.format == "mjcf" else STIFF
+    yield check_defaults(compiled, list_copied(robot), softness)
     yield check_home(
         expected,
         compiled,

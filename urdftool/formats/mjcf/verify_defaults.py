@@ -17,6 +17,9 @@ EXACT = 1e-9
 STIFF = (0.005, 1.0, 0.95, 0.99, 0.001, 0.5, 2.0)
 """``solref`` and ``solimp`` of every equality, as in MuJoCo Menagerie for coupled fingers."""
 
+SOFT = (0.02, 1.0, 0.9, 0.95, 0.001, 0.5, 2.0)
+"""MuJoCo's default of the same, which those of an MJCF have."""
+
 FIELDS = {
     "jnt": ("stiffnesspoly", "springyield"),
     "dof": ("dampingpoly",),
@@ -31,12 +34,15 @@ NONE = ("tendon", "flex", "plugin", "mocap", "pair")
 """Kinds of objects that an export never has."""
 
 
-def check_defaults(compiled: Compiled, copied: Collection[str] = ()) -> Check:
+def check_defaults(
+    compiled: Compiled, copied: Collection[str] = (), softness: tuple[float, ...] = STIFF
+) -> Check:
     """Compare the fields that an export does not write with those of a plain model.
 
     Args:
         compiled: The model.
         copied: Kinds of elements, or of their attributes, that are copied from the source.
+        softness: ``solref`` and ``solimp`` of the equalities, if they are not copied.
     """
     check = Check("defaults", "materials, sensors and equalities, where nothing is written", EXACT)
     model, plain = compiled.model, compiled.get_reference()
@@ -54,7 +60,9 @@ def check_defaults(compiled: Compiled, copied: Collection[str] = ()) -> Check:
             check.compare(math.inf, f"a {kind}")
     for number in range(model.neq) if "eq" not in copied else ():
         soft = *model.eq_solref[number], *model.eq_solimp[number]
-        check.compare(float(abs(np.subtract(soft, STIFF)).max()), f"softness of equality {number}")
+        check.compare(
+            float(abs(np.subtract(soft, softness)).max()), f"softness of equality {number}"
+        )
     _compare_free_joints(compiled, check)
     return check
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from ...model.elements import Robot
 from ...model.mechanism import NativeElement
-from .copied import has_copied_actuators, list_native
+from .copied import has_copied_actuators, has_copied_home, list_native
 from .options import Options
 from .read_native_table import MERGED
 
@@ -18,15 +18,17 @@ _NAMED = ("tendon", "contact")
 
 
 def select_native(source: Robot, options: Options) -> list[NativeElement]:
-    """Return the elements of a source that its export copies: all but replaced actuators."""
-    copied = has_copied_actuators(source, options)
-    return [e for e in list_native(source) if _is_copied(e, has_actuators=copied)]
+    """Return the elements of a source that its export copies: all but replaced ones."""
+    return [e for e in list_native(source) if _is_copied(e, source, options)]
 
 
-def _is_copied(element: NativeElement, *, has_actuators: bool) -> bool:
+def _is_copied(element: NativeElement, source: Robot, options: Options) -> bool:
     """Tell whether an export copies an element; it does not in parts of links without a name."""
-    is_actuator = element.section == "actuator"
-    return has_actuators if is_actuator else not element.section.startswith("link ")
+    if element.section == "actuator":
+        return has_copied_actuators(source, options)
+    if element.section == "keyframe" and element.name == "home":
+        return has_copied_home(source, options)
+    return not element.section.startswith("link ")
 
 
 def list_force_ranges(robot: Robot) -> dict[str, tuple[float, float]]:

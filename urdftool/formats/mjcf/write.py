@@ -20,7 +20,7 @@ from ..common.naming import replace_file_name, shorten_file_name
 from ..common.unexpressed import report_looks, report_unexpressed
 from ..defects import FATAL, make_defect, refuse, report_defects, report_size, report_taken_world
 from ..written import Written
-from .copied import has_copies, list_uncopied
+from .copied import get_described_home, has_copies, list_uncopied
 from .meshes import create_mesh_assets
 from .model import build_model_text
 from .options import Options
@@ -57,7 +57,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     robot, world = report_taken_world(robot)
     model = get_model_name(robot)
     written = Written(options.file or f"{shorten_file_name(model)}.xml")
-    _report_unexpressed(robot, written)
+    _report_unexpressed(robot, options, written)
     report_looks(robot, written)
     written.losses += world if options.force else []
     found = [
@@ -88,12 +88,13 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     return written
 
 
-def _report_unexpressed(robot: Robot, written: Written) -> None:
+def _report_unexpressed(robot: Robot, options: Options, written: Written) -> None:
     """Report what the reader left out and no element of the export has."""
-    kept = has_copies(robot, "keyframe")
-    left = [c for c in robot.configurations if not kept and c.name != REFERENCE]
-    options = {row.name for row in OF_MUJOCO}
-    world = {name: value for name, value in robot.world.items() if name not in options}
+    kept = [REFERENCE, "home"] if get_described_home(robot, options) else [REFERENCE]
+    states = () if has_copies(robot, "keyframe") else robot.configurations
+    left = [one for one in states if one.name not in kept]
+    copied = {row.name for row in OF_MUJOCO}
+    world = {name: value for name, value in robot.world.items() if name not in copied}
     unread = tuple(list_uncopied(robot, robot.unread))
     rest = replace(robot, unread=unread, configurations=left, world=world)
     report_unexpressed(rest, written, expressed=EXPRESSED)

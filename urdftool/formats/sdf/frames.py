@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from ...diagnostic import Severity
 from ...model.elements import Joint, Link
+from ...model.world import WORLD
 from .names import remove_reserved
 from .pose import set_origin, set_pose
 from .translation import Translation
@@ -33,7 +34,8 @@ def add_own_frames(model: Node, t: Translation) -> None:
         if frame.kind == "body":
             continue
         name, exact = remove_reserved(frame.name), t.options.is_at_least("1.9")
-        if t.options.is_at_least("1.7") and name == frame.name and name and name not in taken:
+        has_frames = t.options.is_at_least("1.7") and frame.link != WORLD  # which no frame may name
+        if has_frames and name == frame.name and name and name not in taken:
             taken.add(name)
             made = add(model, "frame", name=name, attached_to=t.names.link(frame.link))
             set_origin(made, frame.origin, exact=exact)

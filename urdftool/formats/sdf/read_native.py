@@ -28,7 +28,7 @@ _READ = {
     "model": ("link", "joint", "frame", *NESTED, "pose", "plugin", "gripper",
               *(row.path for row in OF_ROBOT)),
     "link": (*_COPIED, "inertial", "collision", "visual", "pose", *(row.path for row in OF_LINKS)),
-    "joint": (*HELD_PATHS["joint"], "axis2"),
+    "joint": HELD_PATHS["joint"],
     "inertial": ("mass", "pose", "inertia", "fluid_added_mass"),
     "collision": HELD_PATHS["collision"],
     "visual": (*HELD_PATHS["visual"], "material/pbr"),
