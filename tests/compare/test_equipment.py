@@ -45,6 +45,46 @@ def test_the_parameter_of_a_plugin(tmp_path):
     assert (difference.row, difference.values) == ("simulator data", ("10", "20"))
 
 
+SENSORS = """<robot name="r"><link name="a"/><gazebo reference="a"><sensor name="imu" type="imu">
+<update_rate>50</update_rate><plugin name="p" filename="libx.so"><ns k="v">text</ns></plugin>
+</sensor></gazebo><ros2_control name="s" type="sensor"><hardware><plugin>a/B</plugin></hardware>
+<sensor name="ft"><state_interface name="force.x"/></sensor></ros2_control></robot>"""
+SENSOR_OF_SDF = """<sdf version="1.9"><model name="r"><link name="a"><sensor name="imu" type="imu">
+<update_rate>50</update_rate><plugin name="p" filename="libx.so"><ns k="v">text</ns></plugin>
+</sensor></link></model></sdf>"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("libx.so", "liby.so"),
+        ('name="p"', 'name="q"'),
+        (">text<", ">other<"),
+        ('k="v"', 'k="w"'),
+        ('name="imu"', 'name="other"'),
+        ("force.x", "torque.z"),
+        ('name="ft"', 'name="other"'),
+    ],
+)
+def test_what_is_in_a_sensor_is_compared(tmp_path, old, new):
+    assert compare(tmp_path, SENSORS, SENSORS, ".urdf").is_equal
+    comparison = compare(tmp_path, SENSORS, SENSORS.replace(old, new), ".urdf")
+    assert {difference.row for difference in comparison.differences} == {"simulator data"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("libx.so", "liby.so"), ('"p"', '"q"'), (">text<", "><"), ('k="v"', "")]
+)
+def test_the_plugin_of_a_sensor_is_compared_in_two_formats(tmp_path, old, new):
+    (tmp_path / "a.urdf").write_text(SENSORS)
+    found = []
+    for text in (SENSOR_OF_SDF, SENSOR_OF_SDF.replace(old, new)):
+        (tmp_path / "b.sdf").write_text(text)
+        comparison = compare_robots(api.load(tmp_path / "a.urdf"), api.load(tmp_path / "b.sdf"))
+        found.append([d for d in comparison.differences if d.row == "plugins"])
+    assert [len(one) for one in found] == [0, 1]
+
+
 EMPTY = {
     ".xml": '<mujoco model="m"><worldbody><body name="a"><joint/>'
     + LIMB

@@ -60,6 +60,22 @@ CASES = {
         {"r.urdf": ROBOT, "package.xml": PACKAGE + "<!--" * 500_000},
         "lint r.urdf --no-cache",
     ),
+    "blanks and comments before a root": (
+        {"x.xml": " " * 40 + "x<robot/>", "y.xml": "<!---->" * 9000 + "x<robot/>"},
+        "fmt --check .",
+    ),
+    "includes of a launch file": (
+        {"r.urdf": ROBOT, "a.launch": f"<launch>xacro .urdf {'<include a>' * 90_000}</launch>"},
+        "lint . --no-cache",
+    ),
+    "blanks in a file name": (
+        {"r.urdf": MESH.replace("m.obj", f" m{' ' * 200_000}b.stl")},
+        "lint r.urdf --no-cache",
+    ),
+    "blanks in a name": (
+        {"r.urdf": WORLD.replace('k="a"', f'k=" a{" " * 200_000}b"')},
+        "lint r.urdf --no-cache",
+    ),
     "dots of TOML": ({"r.urdf": ROBOT, "urdftool.toml": "a." * 20_000 + "b = 1"}, "lint r.urdf"),
     "dots of TOML in quotes": (
         {"r.urdf": ROBOT, "urdftool.toml": '"a b" . ' * 20_000 + "b = 1"},

@@ -33,10 +33,10 @@ _TOLERANCE = 1e-6
 
 _WHY = {BLOCKS: "only URDF has such blocks"}
 
-_READ = LINK_TAGS | JOINT_TAGS | {"sensor"}
+_READ = LINK_TAGS | JOINT_TAGS
 """Elements in blocks whose values are compared in rows of their own."""
 
-_READ_IN_GAZEBO = _READ | {"joint", "contact"}
+_READ_IN_GAZEBO = _READ | {"sensor", "joint", "contact"}
 """Those in ``<gazebo>``, where a ``<joint>`` closes a loop."""
 
 _READ_IN_CONTACT = frozenset(row.contact for row in SURFACE if row.contact)
@@ -136,6 +136,8 @@ def _is_read(path: list[str], read: frozenset[str], link: Link | None) -> bool:
     """Tell whether a row of its own compares what is at a path of a block, link or joint."""
     if link is not None and path[0] == "contact" and path[1:]:
         return bool(link.collisions) and path[1] in _READ_IN_CONTACT
+    if path[0] == "sensor" and (len(path) == 1 or "plugin" in path):
+        return False  # its name, of which topics are made, and its plugins
     return path[0] in read
 
 

@@ -1,10 +1,13 @@
-"""Comparison of the plugins of Gazebo in URDF and SDF."""
+"""Comparison of the plugins of Gazebo in URDF and SDF, in sensors, too."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator, Set
 
 import numpy as np
 
 from ..mechanics.reference import Array, get_origin_matrix
+from ..model.elements import Robot
 from ..model.gazebo_plugins import MIMIC_PLUGINS
 from ..model.mechanism import MountedPlugin
 from ..model.numbers import parse_numbers
@@ -40,14 +43,15 @@ def compare_plugins(pair: Pair, comparison: Comparison) -> None:
     if without := sorted(form.upper() for form in formats & _WITHOUT):
         comparison.skipped[_ROW] = f"not in {' and '.join(without)}"
         return
-    one, two = (list(bodies.robot.mounted_plugins) for bodies in (pair.a, pair.b))
-    found = _match(one, two)
+    one, two = (list(_list_plugins(bodies.robot, formats)) for bodies in (pair.a, pair.b))
+    found = _match(one, two, ("library", "name"), ("library",))
     for side, other in ((one, two), (two, one)):
         for plugin in list(side):
             for made in list_replacements(plugin):
-                for x, y in _match([made], other):
+                for x, y in _match([made], other, ("library", "name"), ("library",)):
                     found.append((x, y) if side is one else (y, x))
                     side[:] = [p for p in side if p is not plugin]
+    found += _match(one, two, ("owner", "name"))
     for x, y in found:
         _compare(pair, x, y, comparison)
     for number, side in enumerate((one, two)):
@@ -61,15 +65,22 @@ def compare_plugins(pair: Pair, comparison: Comparison) -> None:
             )  # fmt: skip
 
 
+def _list_plugins(robot: Robot, formats: Set[str]) -> Iterator[MountedPlugin]:
+    """Yield the plugins; those in sensors of two SDF are compared as elements of the sensors."""
+    yield from robot.mounted_plugins
+    if formats != {"sdf"}:
+        yield from robot.sensor_plugins
+
+
 def _match(
-    one: list[MountedPlugin], two: list[MountedPlugin]
+    one: list[MountedPlugin], two: list[MountedPlugin], *keys: tuple[str, ...]
 ) -> list[tuple[MountedPlugin, MountedPlugin]]:
-    """Remove plugins of the same library, of the same name first, and return them as pairs."""
+    """Remove plugins that are equal in the attributes of a key, and return them as pairs."""
     found = []
-    for same_name in (True, False):
+    for key in keys:
         for x in list(one):
             for y in two:
-                if x.library == y.library and (not same_name or x.name == y.name):
+                if all(getattr(x, name) == getattr(y, name) for name in key):
                     found.append((x, y))
                     one[:] = [plugin for plugin in one if plugin is not x]
                     two[:] = [plugin for plugin in two if plugin is not y]
@@ -91,6 +102,7 @@ def _compare(pair: Pair, one: MountedPlugin, two: MountedPlugin, comparison: Com
 
     same_class = normalize_class(one.name) == normalize_class(two.name)
     is_kept = one.library in MIMIC_PLUGINS or same_class
+    add("library", (one.library, two.library), 0.0 if one.library == two.library else float("inf"))
     add("class", (one.name, two.name), 0.0 if is_kept else float("inf"))
     moved = _PLACE if _is_same_place(pair, one, two) else ()
     for name in dict.fromkeys((*one.settings, *two.settings)):

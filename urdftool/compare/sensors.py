@@ -59,7 +59,7 @@ def compare_sensors(pair: Pair, comparison: Comparison) -> None:
         sensors: Iterator[_Sensor] = _list_plain(robot)
         if with_mjcf == 1:
             sensors = _split(sensors, comparison, is_mjcf=robot.format == "mjcf")
-        elif not with_mjcf and {*pair.formats} != {"urdf"}:
+        elif not with_mjcf:
             sensors = (s for s in sensors if not _is_hardware(s))
         sides.append(list(sensors))
     comparison.record_parts(_ROW, *sides)

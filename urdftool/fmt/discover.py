@@ -14,7 +14,8 @@ _HEAD = 16_384
 """Bytes in which the root element must begin. Chosen, no source."""
 
 _ROOT = re.compile(
-    rb"\A(?:\xef\xbb\xbf)?(?:\s+|<\?.*?\?>|<!--.*?-->)*<(?:%s)[\s/>]" % "|".join(ROOTS).encode(),
+    rb"\A(?:\xef\xbb\xbf)?(?:\s|<\?(?:(?!\?>).)*\?>|<!--(?:(?!-->).)*-->)*<(?:%s)[\s/>]"
+    % "|".join(ROOTS).encode(),
     re.DOTALL,
 )
 

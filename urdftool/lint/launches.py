@@ -88,7 +88,8 @@ def _read_xml(path: str, text: str, find: Find) -> Iterator[Use]:
     """Yield the uses in a launch file of ROS 1 or ROS 2 in XML."""
     text = re.sub(r"<!--.*?-->", lambda m: "\n" * m[0].count("\n"), text, flags=re.DOTALL)
     defaults: dict[str, str] = {}
-    for tag in _ARGUMENT.findall(_INCLUDE.sub("", text)):
+    closed, end, rest = text.rpartition("</include>")  # a search behind it would read all of it
+    for tag in _ARGUMENT.findall(_INCLUDE.sub("", closed + end) + rest):
         values = {key: value[1:-1] for key, value in _ATTRIBUTE.findall(tag)}
         if "name" in values:
             defaults[values["name"]] = values.get("default", values.get("value", UNKNOWN))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..source.document import Element
 from .elements import GazeboExtension, Robot
-from .gazebo_plugins import BODY_SENSORS, get_library
+from .gazebo_plugins import BODY_SENSORS, SENSOR_PLUGINS, get_library
 from .kinematics import get_zero_poses
 from .mechanism import Camera, Closure, Light, MountedSensor
 from .numbers import number, parse_numbers
@@ -76,11 +76,14 @@ def _add_sensor(robot: Robot, block: GazeboExtension, element: Element) -> None:
             pose = poses[reference].invert() @ poses[frame] @ pose
     link, joint = (reference, "") if on_link else ("", reference)
     rejected = robot.rejected_settings
-    add_parts(robot, read_sensor(element, pose, link=link, joint=joint, rejected=rejected))
+    add_parts(robot, element, read_sensor(element, pose, link=link, joint=joint, rejected=rejected))
 
 
-def add_parts(robot: Robot, parts: Iterator[Camera | MountedSensor]) -> None:
-    """Add cameras and sensors to their lists."""
+def add_parts(robot: Robot, sensor: Element, parts: Iterator[Camera | MountedSensor]) -> None:
+    """Add the cameras or the sensor of a ``<sensor>`` to their lists, and its own plugins."""
+    for plugin in sensor.list_children("plugin"):
+        if get_library(plugin) not in SENSOR_PLUGINS:
+            robot.sensor_plugins.append(read_plugin(plugin, sensor.get("name") or ""))
     for part in parts:
         if isinstance(part, Camera):
             robot.cameras.append(part)

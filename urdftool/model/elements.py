@@ -98,6 +98,8 @@ class Robot(RobotConversions, Part):
         cameras: Cameras on links.
         mounted_sensors: Sensors of links and joints.
         mounted_plugins: Plugins of Gazebo that are not in a sensor.
+        sensor_plugins: Plugins in sensors, except those of which ``sensors`` reads the data; their
+            owner is the sensor.
         lights: Lights on links.
         settings: Settings of ``settings.OF_ROBOT``.
         world: Settings of the world around it, of ``world_settings``.
@@ -126,6 +128,7 @@ class Robot(RobotConversions, Part):
     cameras: list[Camera] = field(default_factory=list)
     mounted_sensors: list[MountedSensor] = field(default_factory=list)
     mounted_plugins: list[MountedPlugin] = field(default_factory=list)
+    sensor_plugins: list[MountedPlugin] = field(default_factory=list)
     lights: list[Light] = field(default_factory=list)
     settings: Settings = field(default_factory=dict)
     world: Settings = field(default_factory=dict)

@@ -227,6 +227,10 @@ def substitute(element: Element, name: str, pattern: str, new: str) -> Change:
     return Change("sub", element, name, new, pattern)
 
 
+OUTER_BLANKS = r"^\s+|(?<!\s)\s+$"
+"""Pattern of blanks around a value, which reads a long row of blanks inside of it once."""
+
+
 def substitute_text(element: Element, pattern: str, new: str) -> Change:
     """Replace matches of a pattern in the text of an element as written."""
     return Change("sub-text", element, value=new, pattern=pattern)

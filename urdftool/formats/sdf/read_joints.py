@@ -162,7 +162,7 @@ def add_joint(context: Context, found: Found) -> None:
     frame = get_link_pose(context, found.child).invert() @ found.pose  # of the joint, in the child
     for sensor in found.element.list_children("sensor"):
         pose, place = frame @ read_pose(sensor)[0], Written(sensor.place, sensor)
-        add_parts(robot, read_sensor(sensor, pose, joint=found.name, provenance=place))
+        add_parts(robot, sensor, read_sensor(sensor, pose, joint=found.name, provenance=place))
 
 
 def get_link_pose(context: Context, link: str) -> Pose:

@@ -259,7 +259,7 @@ def _add_sensor(
 ) -> None:
     pose = compute_part_pose(context, scope, prefix, link, element)
     owner, written = prefix + (link.get("name") or ""), Written(element.place, element)
-    add_parts(context.robot, read_sensor(element, pose, link=owner, provenance=written))
+    add_parts(context.robot, element, read_sensor(element, pose, link=owner, provenance=written))
 
 
 def normalize_direction(element: Element, vector: Vector) -> Vector:

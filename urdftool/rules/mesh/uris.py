@@ -11,7 +11,16 @@ from typing import NamedTuple
 from ...model.elements import Collision, Mesh, Robot
 from ...source.description import Description
 from ...source.document import Element
-from ..fix import Change, FixContext, Proposal, safe, set_attribute, substitute, unsafe
+from ..fix import (
+    OUTER_BLANKS,
+    Change,
+    FixContext,
+    Proposal,
+    safe,
+    set_attribute,
+    substitute,
+    unsafe,
+)
 from ..mujoco import is_found_by_mujoco, keeps_visuals, read_mesh_folder
 from ..rule import ERROR, INFO, SAFE, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from ..xml.vocabulary_table import find_misspelled_attributes
@@ -271,7 +280,7 @@ _REPAIRS = {
     "lacks slash": (r"^(package|model|file):/*", r"\1://"),
     "backslash": (r"\\+", "/"),
     "double slash": (r"(?<!:)/{2,}", "/"),
-    "outer blank": (r"^\s+|\s+$", ""),
+    "outer blank": (OUTER_BLANKS, ""),
 }
 """Pattern in the URI as written, and its replacement, by the defect."""
 

@@ -12,7 +12,16 @@ from ...model.urdf_schema import VOCABULARY
 from ...source.description import Description
 from ...source.document import Element
 from ...source.tags import locate_value
-from ..fix import FixContext, Proposal, find_attribute, safe, set_attribute, substitute, unsafe
+from ..fix import (
+    OUTER_BLANKS,
+    FixContext,
+    Proposal,
+    find_attribute,
+    safe,
+    set_attribute,
+    substitute,
+    unsafe,
+)
 from ..rule import BOTH, ERROR, UNSAFE, Problem, rule, select_holding
 from ..unexpanded import is_unexpanded
 from .ignored_attributes import select_read_effects
@@ -385,7 +394,7 @@ def write_number(problem: Problem, context: FixContext) -> Proposal | None:
     element, name = found
     text = element.get(name) or ""
     if text != text.strip() and number(text.strip()) is not None:
-        return unsafe(f'write "{text.strip()}"', substitute(element, name, r"^\s+|\s+$", ""))
+        return unsafe(f'write "{text.strip()}"', substitute(element, name, OUTER_BLANKS, ""))
     words = text.split()
     count = VOCABULARY[element.tag].numbers.get(name, 1)
     if len(words) == count and all(re.fullmatch(r"[-+]?\d*[.,]?\d+", word) for word in words):

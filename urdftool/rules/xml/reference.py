@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ...model.elements import Robot
 from ...model.references import list_blocks
 from ...source.document import Element
-from ..fix import FixContext, Proposal, find_attribute, safe, substitute, unsafe
+from ..fix import OUTER_BLANKS, FixContext, Proposal, find_attribute, safe, substitute, unsafe
 from ..rule import BOTH, ERROR, Problem, rule
 
 
@@ -72,4 +72,4 @@ def remove_blank(problem: Problem, context: FixContext) -> Proposal | None:
     joins = element.tag in ("parent", "child")
     joins = joins or (element.tag == "link" and (element.get(name) or "").strip() in ends)
     make = safe if joins else unsafe
-    return make("remove the space", substitute(element, name, r"^\s+|\s+$", ""))
+    return make("remove the space", substitute(element, name, OUTER_BLANKS, ""))
