@@ -41,7 +41,7 @@ from .tensors import is_zero
     caused_by=(*SIZE_IN_DOUBT, "placeholder-inertia", "zero-inertia"),
     formats=ANY_FORMAT,
     infos=True,
-    pedantic="published parameters of an arm, and meshes of less than 5 g",
+    pedantic="published parameters of an arm, and meshes of less than 5 g or up to 3 mm away",
 )
 def com_outside_geometry(
     robot: Robot,
@@ -111,6 +111,9 @@ def com_outside_geometry(
 _OF_GRAMS = 0.005
 """Mass [kg] of a body whose center of mass matters little. Chosen, no source."""
 
+_NEAR = 0.003
+"""Distance [m] from a mesh, which may lack a motor, that matters little. Chosen, no source."""
+
 
 def _is_moved(robot: Robot, link: Link) -> bool:
     joint = robot.tree.get_parent_joint(link.name)
@@ -124,7 +127,8 @@ def _report_outside(link: Link, found: Misfit, attached: Sequence[str], also: st
         at=(link.inertial and link.inertial.origin) or link.inertial,
         severity=None if found.certain else INFO,
         alike=(bool(attached), bool(also)),
-        pedantic=is_identified(link) or (not found.certain and link.mass < _OF_GRAMS),
+        pedantic=is_identified(link)
+        or (not found.certain and (link.mass < _OF_GRAMS or found.amount < _NEAR)),
         data={"distance": found.amount, "axis": "xyz"[found.axis]},
     )
 

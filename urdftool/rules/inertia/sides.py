@@ -38,6 +38,7 @@ _CHECKING = "gz, gazebo-classic, mujoco, drake"
     ),
     formats=ANY_FORMAT,
     infos=True,
+    pedantic="moments, and distances of centers of mass, that differ by a factor below 1.5",
 )
 def left_right_asymmetry(
     robot: Robot,
@@ -78,9 +79,16 @@ def left_right_asymmetry(
             if difference.of == "mass" and max(masses) >= certain * min(masses)
             else None,
             effects=shared,
+            pedantic=difference.ratio < _CLEARLY,
             group="{count} links differ from their mirror images in mass, center of mass or "
             f"inertia, first: {difference.message}; links: {{names}}",
         )
+
+
+_CLEARLY = 1.5
+"""Ratio of moments, or of distances of centers of mass, that two exports of one CAD model do not
+have. Chosen, no source.
+"""
 
 
 class _Difference(NamedTuple):
@@ -90,6 +98,8 @@ class _Difference(NamedTuple):
     message: str
     at: Part
     data: dict[str, float]
+    ratio: float = math.inf
+    """Ratio of the larger value to the smaller one; not computed for masses."""
 
 
 def _list_unlike_bodies(
@@ -138,6 +148,7 @@ def _compare(
             f"of its mirror image '{link.name}' {here:.3g} m; make the distances equal",
             other.inertial.origin or other.inertial,
             {"distance": there, "distance_of_twin": here},
+            _divide(here, there),
         )
     # zero-inertia and others report moments that are none
     if not (_has_moments(link) and _has_moments(other)):
@@ -149,6 +160,7 @@ def _compare(
             f"{_compute_factors(other, link)} times those of its mirror image '{link.name}'",
             other.inertial.inertia or other.inertial,
             {},
+            _divide(_spread(link), _spread(other)),
         )
     return None
 
@@ -227,6 +239,12 @@ def _compute_bodies(
 def _trace(body: SpatialInertia) -> float:
     """Sum the moments of a body [kg·m²]."""
     return body.tensor[0] + body.tensor[3] + body.tensor[5]
+
+
+def _divide(one: float, other: float) -> float:
+    """Divide the larger of two numbers by the smaller one."""
+    least = min(abs(one), abs(other))
+    return max(abs(one), abs(other)) / least if least else math.inf
 
 
 def _is_different(one: float, other: float, part: float) -> bool:

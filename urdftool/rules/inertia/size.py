@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from ...mechanics.mass_bounds import ALLOWED, CERTAIN, ROUNDING, SHORTEST, check_spread, name_shapes
+from ...mechanics.mass_bounds import ALLOWED, CERTAIN, ROUNDING, check_spread, name_shapes
 from ...mechanics.tensor import SymmetricTensor, compute_principal_moments, rotate_tensor
 from ...model.attached import find_attached_links, is_fixed_to_world
 from ...model.elements import Link, Robot
@@ -305,7 +305,7 @@ def _find_large_inertias(
                 },
                 pedantic=is_identified(link)
                 or (found.amount < 2 and link.mass < _OF_GRAMS)
-                or (not found.certain and SHORTEST <= found.amount < 2),
+                or (not found.certain and found.amount < 2),
             )
 
 
