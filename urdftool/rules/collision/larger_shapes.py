@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ...model.bounds import Bounds
+from ...model.bounds import Bounds, compute_size
 from ...model.elements import Cylinder, Link, Mesh, Robot, Sphere
 from ...model.pose import make_pose
 from ..mesh.link_extents import LinkExtents
@@ -58,19 +58,25 @@ _AROUND = 1.3
 
 
 def is_ball_around(robot: Robot, link: Link, around: Bounds) -> bool:
-    """Tell whether the only collision is a sphere as wide as the diagonal of the longest sides.
+    """Tell whether the largest collision is a sphere as wide as the diagonal of the longest sides.
 
-    Its center is that of the box, up to a fifth of its radius. Wheels have a rule of their own.
+    Its center is that of the box, up to three tenths of its radius. Wheels have a rule of their own.
     """
     joint = robot.tree.get_parent_joint(link.name)
     if joint is not None and joint.type in ("continuous", "revolute"):
         return False
-    shapes = [collision.geometry for collision in link.collisions]
-    if len(shapes) != 1 or not isinstance(shapes[0], Sphere):
+    spheres = [
+        (shape.radius, collision)
+        for collision in link.collisions
+        if isinstance(shape := collision.geometry, Sphere)
+    ]
+    if not spheres:
         return False
-    radius = shapes[0].radius
-    center = make_pose(link.collisions[0].origin).translation
-    if math.dist(center, around.center) > 0.2 * radius:
+    radius, sphere = max(spheres, key=lambda one: one[0])
+    sizes = [compute_size(collision.geometry) for collision in link.collisions]
+    if any(size is None or max(size) > 2 * radius for size in sizes):
+        return False
+    if math.dist(make_pose(sphere.origin).translation, around.center) > 0.3 * radius:
         return False
     return 2 * radius <= _AROUND * math.hypot(*sorted(around.size)[1:])
 
