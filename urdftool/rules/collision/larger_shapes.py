@@ -60,7 +60,7 @@ _AROUND = 1.3
 def is_ball_around(robot: Robot, link: Link, around: Bounds) -> bool:
     """Tell whether the largest collision is a sphere as wide as the diagonal of the longest sides.
 
-    Its center is that of the box, up to three tenths of its radius. Wheels have a rule of their own.
+    Its center is that of the box, up to three tenths of its radius. Wheels have their own rule.
     """
     joint = robot.tree.get_parent_joint(link.name)
     if joint is not None and joint.type in ("continuous", "revolute"):
