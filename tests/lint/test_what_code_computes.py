@@ -8,7 +8,7 @@ from tests.lint.test_imported_readers import ROBOT
 from urdftool.api.lint import check
 from urdftool.lint.called_names import list_names
 from urdftool.lint.imported_readers import find_imported_readers
-from urdftool.lint.libraries import CHAIN, PLANNER, SCENE, TESSERACT
+from urdftool.lint.libraries import CHAIN, OWN, PLANNER, SCENE, TESSERACT
 from urdftool.source.description import read_description
 
 
@@ -206,3 +206,45 @@ def test_a_file_with_a_prefix_that_it_does_not_use_is_checked_beside_a_wrong_com
     text = ROBOT.replace('"cart"', '"cart" xmlns:xacro="http://www.ros.org/wiki/xacro"')
     path.write_text(text.replace("</robot>", "<!-- a -- b --></robot>"))
     assert {"not-well-formed", "placeholder-inertia"} <= {one.code for one in check(path)}
+
+
+PARSER = """from xml.etree import ElementTree
+for joint in ElementTree.parse("cart.urdf").iter("joint"):
+    print(joint)
+"""
+
+
+@pytest.mark.parametrize(
+    ("code", "readers"),
+    [
+        (PARSER, {OWN}),
+        (f"{PARSER}# or mujoco\n", {OWN}),
+        (f"{PARSER}print(joint.find('inertia'))\n", None),
+        (f"{PARSER}import rospy\n", None),
+        (f"{PARSER}import ament_index_python\n", {OWN}),
+        (PARSER.replace("urdf", "xml"), None),
+        (f"{PARSER}import pybullet\n", {"pybullet"}),
+    ],
+)
+def test_code_that_reads_urdf_by_itself_takes_no_inertia_unless_it_names_one(
+    tmp_path, code, readers
+):
+    use = _find_use(tmp_path, code)
+    assert (use and use.readers) == readers
+    if readers == {OWN}:
+        assert not {one.code for one in check(tmp_path / "cart.urdf")} & {"placeholder-inertia"}
+
+
+def test_models_whose_files_are_missing_with_their_folder_are_one_finding(tmp_path, urdftool):
+    pytest.importorskip("mujoco")
+    (tmp_path / ".git").mkdir()
+    model = '<mujoco><asset><mesh name="m" file="{}"/></asset><worldbody><body><geom type="mesh" mesh="m"/></body></worldbody></mujoco>'
+    for name in ("a", "b", "c"):
+        (tmp_path / f"{name}.xml").write_text(model.format(f"gone/{name}.stl"))
+    (tmp_path / "d.xml").write_text(model.format("d.stl"))
+    found = json.loads(urdftool("lint", tmp_path, "--format", "json").out)["findings"]
+    messages = [one["message"].partition(";")[0] for one in found]
+    assert len(found) == 2
+    assert messages[0].endswith(
+        "gone' does not exist, but 3 models need files in it, first 'a.stl'"
+    )

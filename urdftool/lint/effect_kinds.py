@@ -56,7 +56,7 @@ def find_kinds(rule: str, keys: Iterable[str], effects: Mapping[str, str]) -> di
 
 def _find_kinds(rule: str, keys: Iterable[str]) -> dict[str, str]:
     table: Mapping[str, Mapping[str, list[str]]] = _read_table().get(rule, {})
-    found = {}
+    found: dict[str, str] = {}
     for key in keys:
         readers = key.partition(" (")[0].split(", ")
         found |= dict.fromkeys(readers, CHANGES)

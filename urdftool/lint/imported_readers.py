@@ -27,6 +27,7 @@ from .libraries import (
     NAMES_OF_CALLS,
     OF_ROS,
     OTHER_ENGINES,
+    OWN,
     READERS,
     WORDS,
     find_moving_readers,
@@ -76,6 +77,8 @@ _IMPORT_OF_ROS = re.compile(
     rb"(?m)^[^\n#]*\b(?:import|from)[ \t]+(?:%s)\b"
     % b"|".join(sorted(name.encode() for name in OF_ROS))
 )
+_OF_XML = re.compile(rb"\b(?:xml\.etree|minidom|lxml|BeautifulSoup|xmltodict)\b")
+_OF_JOINTS = re.compile(rb"\bjoint")
 _WORD = re.compile(rb"\w+")
 _KEEPS_INERTIA = re.compile(rb"URDF_USE_INERTIA_FROM_FILE|\bflags\s*=\s*[1-9]")
 
@@ -196,7 +199,7 @@ def _read_imports(files: Workspace, folder: str) -> _Imports | None:
     named: set[str] = set()
     of_urdf: set[str] = set()
     called: set[str] = set()
-    keeps_inertia = has_ros = False
+    keeps_inertia = has_ros = reads_xml = takes_inertia = False
     for path in list_code_of(files, folder):
         try:
             text = files.read_bytes(path, _BYTES)
@@ -218,8 +221,14 @@ def _read_imports(files: Workspace, folder: str) -> _Imports | None:
         named |= mentioned & {*READERS, *OTHER_ENGINES, *GYM}
         if is_about_urdf:
             of_urdf |= {READERS[name] for name in own & READERS.keys()}
+            if _OF_XML.search(text) and _OF_JOINTS.search(text):
+                reads_xml = True
+        takes_inertia = takes_inertia or b"inertia" in text
         if _CALLED.search(text):
             called |= list_names(path, text) & NAMES_OF_CALLS
+    if reads_xml and not (takes_inertia or has_ros or imported & {*READERS, *OTHER_ENGINES}):
+        use = Use(frozenset((OWN,)), frozenset())
+        return _Imports(use, use)
     if READERS.keys().isdisjoint(imported) or (has_ros and not of_urdf):
         return None
     readers = {READERS[name] for name in named & READERS.keys()}

@@ -16,6 +16,9 @@ PLANNER = "kinematics and collisions"
 TESSERACT = "tesseract"
 """Tesseract, which plans with URDF and an SRDF of its own."""
 
+OWN = "code of the project"
+"""Code that reads URDF as XML by itself, and takes no inertia from it."""
+
 READERS = {
     **dict.fromkeys(("mujoco", "mujoco_py", "dm_control", "robosuite", "brax"), "mujoco"),
     **dict.fromkeys(("mujoco_warp", "mujoco_playground", "gymnasium_robotics"), "mujoco"),
@@ -37,12 +40,12 @@ READERS = {
 
 OF_ROS = frozenset(
     (
-        *("rclpy", "rospy", "moveit_commander", "moveit", "moveit_msgs", "ament_index_python"),
-        *("launch_ros", "roslib", "rospkg", "roslaunch", "tf2_ros", "sensor_msgs"),
+        *("rclpy", "rospy", "moveit_commander", "moveit", "moveit_msgs"),
+        *("launch_ros", "roslaunch", "tf2_ros", "sensor_msgs"),
         *("scenario", "gym_ignition", "gz"),
     )
 )
-"""Libraries of ROS and Gazebo."""
+"""Libraries of ROS and Gazebo, without those that only find packages."""
 
 OTHER_ENGINES = frozenset(
     (

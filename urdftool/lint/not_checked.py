@@ -12,6 +12,7 @@ from ..source.description import Description
 from ..source.description_formats import find_by_head
 from ..source.document import Element
 from ..source.location import Place, SourceFile
+from ..source.packages import shorten_path
 from ..source.well_formed import WIDE
 
 _MESHES = (".stl", ".dae", ".obj", ".ply", ".glb", ".gltf", ".3ds", ".step", ".stp")
@@ -113,9 +114,28 @@ def convert_error(
         effects=effects,
         hint="; ".join(failure.notes),
         unchecked=unchecked,
-        group=Group("repository", "", failure.message) if unchecked else None,
+        group=_group_unchecked(failure) if unchecked else None,
         data={"case": failure.case, **failure.data} if failure.case else failure.data,
     )
+
+
+def _group_unchecked(failure: UrdftoolError) -> Group:
+    """Return the group of descriptions that are not checked for the same reason.
+
+    Files that are missing with their folder are one: the folder was forgotten, or is downloaded.
+    """
+    missing = failure.data.get("missing")
+    if missing is not None and failure.at is not None and "/" in missing:
+        folder = os.path.normpath(
+            os.path.join(os.path.dirname(failure.at.file.path), missing, "..")
+        )
+        if not os.path.isdir(folder):
+            sentence = (
+                f"folder '{shorten_path(folder)}' does not exist, but {{count}} models need files "
+                f"in it, first '{os.path.basename(missing)}'"
+            )
+            return Group("repository", sentence, ("folder", folder))
+    return Group("repository", "", failure.message)
 
 
 def _get_effects(name: str, failure: UrdftoolError) -> dict[str, str]:

@@ -11,7 +11,7 @@ from ..model.elements import Robot
 from ..rules.rule import Rule
 from .effect_kinds import FLAGGED, INTENDED, REJECTS, WRITTEN
 from .imported_readers import Use
-from .libraries import CHAIN, PLANNER, SCENE, TESSERACT
+from .libraries import CHAIN, OWN, PLANNER, SCENE, TESSERACT
 
 _KNOWN = frozenset(
     (
@@ -40,6 +40,7 @@ _OF_DRIVES = frozenset(
 _LEFT_OUT = {
     TESSERACT: (),
     PLANNER: (),
+    OWN: (),
     SCENE: ("collision",),
     CHAIN: ("collision", "visual", "mesh", "package"),
 }
