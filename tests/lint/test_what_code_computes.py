@@ -238,7 +238,8 @@ def test_code_that_reads_urdf_by_itself_takes_no_inertia_unless_it_names_one(
 def test_models_whose_files_are_missing_with_their_folder_are_one_finding(tmp_path, urdftool):
     pytest.importorskip("mujoco")
     (tmp_path / ".git").mkdir()
-    model = '<mujoco><asset><mesh name="m" file="{}"/></asset><worldbody><body><geom type="mesh" mesh="m"/></body></worldbody></mujoco>'
+    body = '<worldbody><body><geom type="mesh" mesh="m"/></body></worldbody>'
+    model = f'<mujoco><asset><mesh name="m" file="{{}}"/></asset>{body}</mujoco>'
     for name in ("a", "b", "c"):
         (tmp_path / f"{name}.xml").write_text(model.format(f"gone/{name}.stl"))
     (tmp_path / "d.xml").write_text(model.format("d.stl"))
