@@ -142,6 +142,7 @@ def summarize_robots(found: Repository, options: Options, reports: Collection[Re
     """
     checked = [report.path for report in reports if report.checked]
     missing = [report.path for report in reports if report.not_checked or report.unexpanded]
+    missing += dict.fromkeys(path for report in reports for path in report.unread_files)
     reals = {os.path.realpath(path) for path in checked}
     read = {os.path.realpath(path) for report in reports if report.checked for path in report.files}
     belonging = (read | {path for real in reals for path in found.list_belonging(real)}) - reals

@@ -81,3 +81,17 @@ def is_of_scenery(rule: Rule, finding: Finding, robot: Robot | None) -> bool:
         box is not None and max(*box.size, *map(abs, (*box.low, *box.high))) >= _SCENERY
         for box in boxes
     )
+
+
+def replace_mujoco(effects: dict[str, str]) -> dict[str, str]:
+    """Replace the effect on MuJoCo by ``WELDED`` where it is one of at least three readers."""
+    found = {}
+    for key, effect in effects.items():
+        readers = key.split(", ")
+        others = ", ".join(reader for reader in readers if reader != "mujoco")
+        if len(readers) < 3 or "mujoco" not in readers:
+            found[key] = effect
+            continue
+        found[others] = effect
+        found["mujoco"] = WELDED
+    return found

@@ -40,6 +40,8 @@ class Report:
         not_fixed: Findings whose fix cannot be applied to the source, with the reason.
         outside: Findings whose fix would change a file outside of the package, with both.
         unread_meshes: Why a mesh file may not be read, so that it was not checked, by its URI.
+        unread_files: Why a file next to the robot could not be read, so that it was not checked, by
+            its path.
         for_other_readers: Number of findings by rule that are left out, because they have effects
             only on readers that the code of the project does not import.
         about_dynamics: Number of these that are about dynamics, which no code of it computes.
@@ -68,6 +70,7 @@ class Report:
     not_fixed: list[tuple[Finding, str]] = field(default_factory=list)
     outside: list[tuple[Finding, str]] = field(default_factory=list)
     unread_meshes: dict[str, str] = field(default_factory=dict)
+    unread_files: dict[str, str] = field(default_factory=dict)
     for_other_readers: dict[str, int] = field(default_factory=dict)
     about_dynamics: int = 0
     minor: int = 0
@@ -129,6 +132,11 @@ class Outcome:
                 if uri not in uris:
                     uris.append(uri)
         return found
+
+    @property
+    def unread_files(self) -> dict[str, str]:
+        """Return why files next to robots were not checked, by path."""
+        return {path: why for one in self.reports for path, why in one.unread_files.items()}
 
     @property
     def for_other_readers(self) -> dict[str, int]:

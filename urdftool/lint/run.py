@@ -22,6 +22,7 @@ from ..rules.mesh.mesh_uses import collect_unread_meshes
 from ..rules.old_names import find_old_names, find_old_rules
 from ..rules.rule import Problem, Rule
 from ..rules.table import APPLIES_TO, FIXES
+from ..rules.unread_files import collect_unread_files
 from ..source.description import Description, is_xacro, read_description
 from ..source.document import STDIN, Document, Element, parse_once, read_file
 from ..source.location import SourceFile
@@ -38,11 +39,11 @@ from .merge import merge, sort_findings
 from .moot import Rejections
 from .motion import (
     UNUSED_JOINT,
-    WELDED,
     is_joint_unused,
     is_link_unused,
     is_of_scenery,
     is_welded_in_mujoco,
+    replace_mujoco,
 )
 from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
 from .options import Options
@@ -395,6 +396,7 @@ def _check_description(
     }
     report.readers = frozenset() if used is None else used.readers
     report.unread_meshes = {} if robot is None else collect_unread_meshes(robot)
+    report.unread_files = {} if robot is None else collect_unread_files(robot)
     for memo in (description.memo, *([robot.memo] if robot is not None else ())):
         memo.clear()  # breaks a reference cycle with the robot
 
@@ -473,7 +475,7 @@ def _convert_finding(
             if is_joint_unused(robot, problem):
                 severity, effects = Severity.INFO, {"every reader": UNUSED_JOINT}
             elif is_welded_in_mujoco(robot, problem):
-                effects = _replace_mujoco(effects)
+                effects = replace_mujoco(effects)
     causes = rule.caused_by if problem.caused_by is None else problem.caused_by
     concerned = targets if rule.on is None else targets.intersection(rule.on)
     return Finding(
@@ -492,17 +494,3 @@ def _convert_finding(
         owner=problem.owner,
         data=problem.data,
     )
-
-
-def _replace_mujoco(effects: dict[str, str]) -> dict[str, str]:
-    """Replace the effect on MuJoCo by ``WELDED`` where it is one of at least three readers."""
-    found = {}
-    for key, effect in effects.items():
-        readers = key.split(", ")
-        others = ", ".join(reader for reader in readers if reader != "mujoco")
-        if len(readers) < 3 or "mujoco" not in readers:
-            found[key] = effect
-            continue
-        found[others] = effect
-        found["mujoco"] = WELDED
-    return found

@@ -120,6 +120,7 @@ def as_one(reports: Mapping[str, Report]) -> Report:
         failed_rules={k: v for r in checked.values() for k, v in r.failed_rules.items()},
         skipped_rules={k: v for r in checked.values() for k, v in r.skipped_rules.items()},
         unread_meshes={k: v for r in checked.values() for k, v in r.unread_meshes.items()},
+        unread_files={k: v for r in checked.values() for k, v in r.unread_files.items()},
         for_other_readers={
             rule: max(r.for_other_readers.get(rule, 0) for r in checked.values())
             for rule in sorted({rule for r in checked.values() for rule in r.for_other_readers})

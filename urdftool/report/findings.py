@@ -214,7 +214,7 @@ def summarize(outcome: Outcome) -> str:
     overruled = sorted({report.overruled for report in checked} - {""})
     names = "; ".join((names, *overruled))
     where = f" in {format_count(files, 'file')}" if files else ""
-    missing = len(outcome.not_checked)
+    missing = len(outcome.not_checked) + len(outcome.unread_files)
     unchecked = f", {format_count(missing, 'file')} not checked" if missing else ""
     written = sum(report.unexpanded for report in outcome.reports)
     if written:

@@ -44,6 +44,10 @@ def to_json(outcome: Outcome, fixes: Mapping[str, Any] | None = None) -> str:
         table["summary"]["unread_meshes"] = [
             {"path": path, "mesh": uri, "reason": reason} for path, uri, reason in unread
         ]
+    if outcome.unread_files:
+        table["summary"]["unread_files"] = [
+            {"path": path, "reason": reason} for path, reason in outcome.unread_files.items()
+        ]
     if outcome.for_other_readers:
         table["summary"]["for_other_readers"] = outcome.for_other_readers
     if outcome.known:

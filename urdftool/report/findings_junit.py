@@ -93,6 +93,9 @@ def _add_unchecked(suite: Element, report: Report) -> None:
     for uri, why in report.unread_meshes.items():
         message = escape_controls(f"mesh '{uri}' {why}")
         SubElement(_build_case(suite, report.path, "lint"), "skipped", message=message)
+    for path, why in report.unread_files.items():
+        case = _build_case(suite, path, "lint")
+        SubElement(case, "skipped", message=escape_controls(f"not checked: {why}"))
     for rule, why in report.failed_rules.items():
         SubElement(
             _build_case(suite, report.path, rule),

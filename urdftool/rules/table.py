@@ -242,6 +242,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         ),
         "launch_files": ("undeclared-launch-dependency",),
         "xacro_calls": ("obsolete-cli-option",),
+        "configuration_files": ("unreadable-configuration",),
     },
     "gazebo": {
         "tags": ("missing-gazebo-tags", "missing-gazebo-material", "missing-friction"),
@@ -374,12 +375,12 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "group-state-out-of-bounds",
             "missing-virtual-joint",
             "end-effector-group",
-            "missing-acceleration-limits",
         ),
         "configuration": (
             "moveit-parameter-type",
             "moveit-controller-incomplete",
             "moveit-controller-unknown-joint",
+            "missing-acceleration-limits",
         ),
         "consistency": ("moveit-unknown-name", "moveit-controller-mismatch"),
         "adjacent": ("adjacent-pair-not-disabled",),

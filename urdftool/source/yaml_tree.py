@@ -148,6 +148,12 @@ def read_yaml(path: str) -> Node:
     return parse_yaml(read_file(path))
 
 
+def is_blank(file: SourceFile) -> bool:
+    """Tell whether a file has only comments and document marks."""
+    lines = (line.strip() for line in file.data.splitlines())
+    return all(not line or line[:1] == b"#" or line in (b"---", b"...") for line in lines)
+
+
 def parse_yaml(file: SourceFile) -> Node:
     """Return the mapping in a file that was read.
 
@@ -174,10 +180,12 @@ def parse_yaml(file: SourceFile) -> Node:
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         problem = getattr(error, "problem", None) or "it contains a character that YAML forbids"
-        line = None if mark is None else mark.line + 1
-        column = None if mark is None else mark.column + 1
+        start = 0 if mark is None else min(len(text[: mark.index].encode()), len(file.data))
         raise ConfigError(
-            f"is not valid YAML: {problem}", path=path, line=line, column=column
+            f"is not valid YAML: {problem}",
+            path=path,
+            at=None if mark is None else Place(file, start, min(start + 1, len(file.data))),
+            rule="unreadable-configuration",
         ) from None
     roots = [root for root in roots if not _is_empty(root)]
     if not roots or not all(isinstance(root, yaml.MappingNode) for root in roots):

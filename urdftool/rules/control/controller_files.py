@@ -9,14 +9,16 @@ from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
-from ...errors import AccessError, ConfigError, PackageNotFound
+from ...errors import AccessError, PackageNotFound
 from ...model.controllers import Controller, list_controllers
 from ...model.elements import Robot
 from ...source.comments import blank_comments, list_spans
 from ...source.description import Description
 from ...source.location import SourceFile
 from ...source.nearby_files import read_optional_file
+from ...source.yaml_tree import Node
 from ...workspace import Workspace
+from ..unread_files import read_parameters
 
 _FOLDERS = ("config", "controllers", "control", "bringup/config", "params", "launch")
 _CONTROLLER = re.compile(rb"\btype[\"']?\s*:\s*[\"']?\w+(?:/|::)\w")
@@ -33,6 +35,7 @@ class ControllerFile(NamedTuple):
 
     Attributes:
         file: The file.
+        root: Its content.
         controllers: The controllers in it.
         by_plugin: Whether a plugin of the robot refers to it.
         by_launch: Whether a launch file refers to it and to the description.
@@ -40,6 +43,7 @@ class ControllerFile(NamedTuple):
     """
 
     file: SourceFile
+    root: Node
     controllers: list[Controller]
     by_plugin: bool
     by_launch: bool
@@ -141,23 +145,19 @@ def _find_controller_files(robot: Robot, package: Package) -> Iterator[Controlle
     }
     for path in sorted(named | beside):
         file = read_optional_file(workspace, path) if workspace.is_file(path) else None
-        if file is None or len(file.data) > _MOST_BYTES or not _CONTROLLER.search(file.data):
+        by_plugin = path in named
+        if file is None or len(file.data) > _MOST_BYTES:
             continue
-        by_plugin, by_launch = path in named, package.is_launched_with(path)
+        if not by_plugin and not _CONTROLLER.search(file.data):
+            continue
+        by_launch = package.is_launched_with(path)
         if not by_plugin and not by_launch and package.other_robots != []:
             continue
-        controllers = _read(file)
-        if controllers:
-            yield ControllerFile(file, controllers, by_plugin, by_launch, package.is_shared(path))
-
-
-def _read(file: SourceFile) -> list[Controller]:
-    from ...source.yaml_tree import parse_yaml
-
-    try:
-        return list(list_controllers(parse_yaml(file)))
-    except ConfigError:
-        return []
+        root = read_parameters(package.robot, file, "controllers" * (by_plugin or by_launch))
+        controllers = [] if root is None else list(list_controllers(root))
+        if root is not None and controllers:
+            is_shared = package.is_shared(path)
+            yield ControllerFile(file, root, controllers, by_plugin, by_launch, is_shared)
 
 
 def _find_named_by_plugins(robot: Robot, description: Description) -> Iterator[Path]:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...errors import ConfigError
 from ...model.elements import Robot
 from ...source.description import Description
-from ...source.yaml_tree import Node, parse_yaml
+from ...source.yaml_tree import Node
 from ..fix import FixContext, Proposal, Span, safe
 from ..rule import ERROR, SAFE, Problem, rule
 from ..words import join_some
@@ -136,11 +135,7 @@ def write_declared_type(problem: Problem, context: FixContext) -> Proposal | Non
 
 def find_wrong_types(file: ControllerFile) -> Iterator[tuple[str, Node, str]]:
     """Yield parameters with a wrong type: the controller, the value, and the corrected text."""
-    try:
-        root = parse_yaml(file.file)
-    except ConfigError:
-        return
-    for path, parameters in root.walk():
+    for path, parameters in file.root.walk():
         if path[-2:] == ("controller_manager", "ros__parameters"):
             for node in _find_values(parameters, "update_rate"):
                 if node.kind == "float" and (right := _as_integer(node)):

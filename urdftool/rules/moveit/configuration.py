@@ -6,17 +6,17 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from ...errors import ConfigError
 from ...model.elements import Robot
 from ...model.moveit_parameters import ACTIONS, MANAGER
 from ...source.description import Description
 from ...source.nearby_files import read_optional_file
 from ...source.packages import shorten_path
-from ...source.yaml_tree import Node, parse_yaml
+from ...source.yaml_tree import Node
 from ..fix import FixContext, Proposal, Span, safe, unsafe
-from ..rule import ERROR, SAFE, UNSAFE, Problem, rule
+from ..rule import ERROR, SAFE, UNSAFE, WARNING, Problem, rule
+from ..unread_files import read_parameters
 from ..words import join_some, suggest_joint, suggest_name
-from .semantic import get_srdf_documents
+from .semantic import has_srdf
 
 _ON = ("moveit",)
 _LIMITS = (
@@ -255,9 +255,38 @@ def moveit_controller_unknown_joint(robot: Robot, description: Description) -> I
                     )
 
 
+@rule(
+    WARNING,
+    on=_ON,
+    effects={
+        "moveit": "cannot time a trajectory: no acceleration limit was defined",
+    },
+)
+def missing_acceleration_limits(robot: Robot, description: Description) -> Iterator[Problem]:
+    """A joint has no acceleration limit.
+
+    URDF has no acceleration limits; MoveIt reads them from ``joint_limits.yaml`` next to the SRDF.
+    Without them MoveIt cannot time trajectories. Nothing is reported if the file does not exist.
+    """
+    root = read_next_to_srdf(robot, description, "joint_limits.yaml")
+    limits = None if root is None else root.find("joint_limits")
+    if root is None or limits is None or limits.fields is None:
+        return
+    for joint in robot.moving_joints:
+        entry = limits.fields.get(joint.name)
+        if joint.mimic is not None or not joint.has_axis:
+            continue
+        if entry is None or not _is_true((entry.fields or {}).get("has_acceleration_limits")):
+            yield Problem(
+                joint,
+                f"joint '{joint.name}' has no acceleration limit in {root.file.path}; "
+                "MoveIt cannot time its motion",
+            )
+
+
 def find_managers(robot: Robot, description: Description) -> Iterator[Node]:
     """Yield the sections of MoveIt's simple controller manager, in the format of ROS 2."""
-    for name in ("moveit_controllers.yaml", "moveit_simple_controllers.yaml", "controllers.yaml"):
+    for name in _OF_MANAGERS:
         root = read_next_to_srdf(robot, description, name)
         manager = None if root is None else root.find(MANAGER)
         if manager is not None:
@@ -266,12 +295,21 @@ def find_managers(robot: Robot, description: Description) -> Iterator[Node]:
 
 def read_next_to_srdf(robot: Robot, description: Description, name: str) -> Node | None:
     """Read a YAML file next to the description and its SRDF; None if there is none."""
-    if not get_srdf_documents(robot, description):
+    if not has_srdf(robot, description):
         return None
     path = Path(description.path).parent / name
     workspace = description.workspace
     file = read_optional_file(workspace, shorten_path(path)) if workspace.is_file(path) else None
-    try:
-        return None if file is None else parse_yaml(file)
-    except ConfigError:
-        return None
+    case = "controllers" if name == _OF_ROS2_CONTROL else "parameters of MoveIt"
+    return None if file is None else read_parameters(robot, file, case)
+
+
+_OF_MANAGERS = ("moveit_controllers.yaml", "moveit_simple_controllers.yaml", "controllers.yaml")
+_OF_ROS2_CONTROL = "ros2_controllers.yaml"
+_BESIDE_SRDF = (*_FILES, _OF_ROS2_CONTROL, *_OF_MANAGERS)
+
+
+def read_configuration(robot: Robot, description: Description) -> None:
+    """Read all files of a MoveIt configuration that rules check, to learn which are unreadable."""
+    for name in _BESIDE_SRDF:
+        read_next_to_srdf(robot, description, name)

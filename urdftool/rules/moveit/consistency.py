@@ -32,7 +32,7 @@ def moveit_unknown_name(robot: Robot, description: Description) -> Iterator[Prob
         for group in document.root.list_children("group")
     }
     solvers = read_next_to_srdf(robot, description, "kinematics.yaml")
-    if solvers is not None and "/**" not in (solvers.fields or {}):
+    if groups and solvers is not None and "/**" not in (solvers.fields or {}):
         yield from _find_unknown(robot, "kinematics.yaml", "group", solvers, groups)
     file = read_next_to_srdf(robot, description, "joint_limits.yaml")
     limits = None if file is None else file.find("joint_limits")

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from ...errors import SourceError
+from ...errors import SourceError, XmlError
 from ...model.elements import Robot
 from ...model.semantic import read_semantic
 from ...source.description import Description
 from ...source.document import Document, Element, parse, read_file
+from ...source.location import SourceFile
 from ...source.packages import shorten_path
+from ...source.tinyxml2 import parse_as_tinyxml2
 from ...workspace import Workspace
 from ..fix import (
     FixContext,
@@ -23,6 +26,7 @@ from ..fix import (
     write_suggestion,
 )
 from ..rule import ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..unread_files import UnreadFile, get_unread_files
 from ..words import find_nearest, find_nearest_joint, suggest_joint, suggest_name
 
 _ON = ("moveit",)
@@ -47,11 +51,45 @@ def _read(robot: Robot, description: Description) -> Iterator[Document]:
         others = {other.name.split(".")[0] for other in described}
         files = [file for file in files if file.name.split(".")[0] not in others]
     for file in named or files:
-        document = _parse(file, workspace)
+        document = _read_srdf(file, robot, workspace, is_named=bool(named))
         if document is None or not (named or document.root.get("name") == robot.name):
             continue
         if named or not _is_of_another(document, robot, path, workspace):
             yield document
+
+
+def _read_srdf(
+    path: Path, robot: Robot, workspace: Workspace, *, is_named: bool
+) -> Document | None:
+    """Parse an SRDF file as srdfdom does, which has TinyXML2; None if it rejects the file.
+
+    A defect is added to the unread files, if the file is of this robot by its name, or by the name
+    of the robot in it.
+    """
+    shown = shorten_path(path)
+    document: Document | None = None
+    defect: SourceError | None = None
+    is_of_robot = is_named
+    try:
+        file = read_file(shown, workspace)
+        is_of_robot = is_named or _has_name_of_robot(file, robot)
+        document, defect, _ = parse_as_tinyxml2(file)
+        if document.root.tag != "robot":
+            message = f"the root element is <{document.root.tag}>, not <robot>"
+            defect = XmlError(message, at=document.root.place)
+            document = None
+    except SourceError as error:
+        defect = error
+    if defect is not None and is_of_robot:
+        case = "an SRDF" if document is None else "an SRDF that TinyXML2 accepts"
+        get_unread_files(robot)[shown] = UnreadFile(defect, case, document is not None)
+    return document
+
+
+def _has_name_of_robot(file: SourceFile, robot: Robot) -> bool:
+    """Tell whether an element of a file, which may not be XML, has the name of a robot."""
+    name = re.escape(robot.name.encode())
+    return re.search(rb"<\w+[^<>]*\sname\s*=\s*[\"']" + name + rb"[\"']", file.data) is not None
 
 
 def _is_of_another(document: Document, robot: Robot, path: Path, workspace: Workspace) -> bool:
@@ -86,6 +124,12 @@ def get_documents_of_folder(robot: Robot, description: Description) -> list[Docu
         if (document := _parse(file, description.workspace)) is not None
         and document.root.get("name") == robot.name
     ]
+
+
+def has_srdf(robot: Robot, description: Description) -> bool:
+    """Tell whether a robot has an SRDF, which may be one that cannot be read."""
+    documents = get_srdf_documents(robot, description)
+    return bool(documents) or any(path.endswith(".srdf") for path in get_unread_files(robot))
 
 
 def _parse(file: Path, workspace: Workspace) -> Document | None:
@@ -345,41 +389,3 @@ def end_effector_group(robot: Robot, description: Description) -> Iterator[Probl
                     "in its own group",
                     at=element.locate_attribute("parent_link"),
                 )
-
-
-@rule(
-    WARNING,
-    on=_ON,
-    effects={
-        "moveit": "cannot time a trajectory: no acceleration limit was defined",
-    },
-)
-def missing_acceleration_limits(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A joint has no acceleration limit.
-
-    URDF has no acceleration limits; MoveIt reads them from ``joint_limits.yaml`` next to the SRDF.
-    Without them MoveIt cannot time trajectories. Nothing is reported if the file does not exist.
-    """
-    documents = get_srdf_documents(robot, description)
-    path = Path(description.path).parent / "joint_limits.yaml"
-    if not documents or not description.workspace.is_file(path):
-        return
-    import yaml
-
-    try:
-        table = yaml.safe_load(description.workspace.read_text(path))
-    except (OSError, yaml.YAMLError):
-        return
-    limits = table.get("joint_limits") if isinstance(table, dict) else None
-    if not isinstance(limits, dict):
-        return
-    for joint in robot.moving_joints:
-        entry = limits.get(joint.name)
-        if joint.mimic is not None or not joint.has_axis:
-            continue
-        if not isinstance(entry, dict) or not entry.get("has_acceleration_limits"):
-            yield Problem(
-                joint,
-                f"joint '{joint.name}' has no acceleration limit in {shorten_path(path)}; "
-                "MoveIt cannot time its motion",
-            )

@@ -13,7 +13,7 @@ from ...model.start import list_initial_positions
 from ...source.edit import Edit, apply
 from ...source.location import SourceFile
 from ...source.nearby_files import read_optional_file
-from ...source.yaml_tree import Node, parse_yaml
+from ...source.yaml_tree import Node, is_blank, parse_yaml
 from ...workspace import Workspace
 from ..states import get_default_position, is_within
 from .configuration import Configuration
@@ -71,7 +71,7 @@ class PackageFiles:
             ConfigError: It is not a YAML mapping.
         """
         file = self.read(path)
-        return None if file is None or _is_blank(file) else parse_yaml(file)
+        return None if file is None or is_blank(file) else parse_yaml(file)
 
     def add_text(self, path: str, text: str) -> None:
         """Add a file; an existing one is kept as it is."""
@@ -98,12 +98,6 @@ class PackageFiles:
         found = list(edits)
         data = apply(file, [edit for _, edit in found])
         self.files.append(PackageFile(path, data, file.data, [what for what, _ in found]))
-
-
-def _is_blank(file: SourceFile) -> bool:
-    """Tell whether a file has only comments and document marks."""
-    lines = (line.strip() for line in file.data.splitlines())
-    return all(not line or line[:1] == b"#" or line in (b"---", b"...") for line in lines)
 
 
 def make_package(configuration: Configuration, files: PackageFiles) -> None:
