@@ -50,11 +50,11 @@ def wheels(axis, second="2"):
 def test_what_is_fixed_is_said_and_the_rest_reported(write, urdftool):
     path = write("r.urdf", LONG)
     result = urdftool(
-        "lint", path, "--fix", "--unsafe-fixes", "--select", "axis-not-unit,missing-base-link"
+        "lint", path, "--fix", "--unsafe-fixes", "--select", "axis-not-unit,missing-dynamics"
     )
     assert Path(path).read_text() == UNIT
     assert result.err.startswith("Fixed 1 in 1 file: axis-not-unit × 1\n")
-    assert "[missing-base-link]" in result.out
+    assert "[missing-dynamics]" in result.out
     assert "axis-not-unit" not in result.out
     assert result.code == 0, "what is left is info"
 
@@ -99,10 +99,10 @@ def test_standard_input_is_fixed_to_standard_output(monkeypatch, urdftool):
 
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(LONG.encode())))
     result = urdftool(
-        "lint", "-", "--fix", "--unsafe-fixes", "--select", "axis-not-unit,missing-base-link"
+        "lint", "-", "--fix", "--unsafe-fixes", "--select", "axis-not-unit,missing-dynamics"
     )
     assert result.out == UNIT
-    assert "[missing-base-link]" in result.err
+    assert "[missing-dynamics]" in result.err
 
 
 @pytest.mark.parametrize(

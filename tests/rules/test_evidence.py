@@ -32,4 +32,3 @@ def test_kinds_of_evidence_are_told_apart():
     assert run > 0
     assert rejecting > 0
     assert "declared" in list_evidence(get_rule("tiny-moving-inertia"))
-    assert list_evidence(get_rule("blanket-suppression")) == []

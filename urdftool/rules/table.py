@@ -347,12 +347,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
     "simulation": {
         "stability": ("mass-ratio",),
         "spawn": ("stiff-joint-damping", "below-ground-at-spawn"),
-        "readers": (
-            "pybullet-ignores-inertia",
-            "mujoco-welds-root",
-            "mujoco-missing-compiler",
-            "isaac-empty-root",
-        ),
+        "readers": ("pybullet-ignores-inertia", "mujoco-welds-root", "mujoco-missing-compiler"),
         "mujoco_element": ("bad-mujoco-value",),
         "usd_importers": (
             "usd-computed-mass",
@@ -395,18 +390,11 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "confusable-names",
             "duplicate-geometry-name",
         ),
-        "frames": (
-            "missing-base-link",
-            "optical-frame-orientation",
-            "camera-sensor-not-optical",
-            "optical-frame-has-sensor-body",
-            "base-footprint-placement",
-        ),
+        "frames": ("optical-frame-orientation", "camera-sensor-not-optical"),
     },
     "lint": {
         "suppressions": ("unused-suppression", "unknown-rule", "renamed-rule"),
         "analysis": ("analysis-incomplete",),
-        "comments": ("suppression-without-reason", "blanket-suppression"),
     },
 }
 """Rules by family and file, in reading order."""

@@ -81,7 +81,9 @@ _AS_PART = (
     },
     group="robot",
     formats=URDF_AND_SDF,
-    pedantic="links fixed to the world, robots of one link without collision, and massless scenes",
+    pedantic="infos, except about robots for ROS of which no link has an inertial; robots of one "
+    "link without collision, and massless scenes",
+    infos=True,
 )
 def missing_inertial(
     robot: Robot, description: Description, targets: frozenset[str]
@@ -110,7 +112,7 @@ def missing_inertial(
         return
     if targets.isdisjoint(MASS_READERS) and is_only_kinematic(robot):
         if not has_optional_inertials(description):
-            yield report_massless(robot)
+            yield report_massless(robot, targets)
         return
     in_gazebo = not targets.isdisjoint(GAZEBO)
     if in_gazebo and robot.links and all(link.is_frame for link in robot.links):
@@ -190,7 +192,7 @@ def missing_inertial(
             group=f"{{count}} links have no <inertial>{several}: {{names}}",
             effects=select_effects(robot, link, case) - (LUMPED if outcome == "part" else set()),
             alike=outcome,
-            pedantic=outcome == "static"
+            pedantic=severity is INFO
             or (severity is not ERROR and is_massless_scene(robot))
             or (len(robot.links) == 1 and not link.collisions),
         )

@@ -1,4 +1,4 @@
-"""Analysis limits and comments that suppress findings."""
+"""Analysis limits, and comments that suppress what is not found."""
 
-FILES = ("suppressions", "analysis", "comments")
+FILES = ("suppressions", "analysis")
 """Files with rules, in reading order."""

@@ -11,7 +11,7 @@ from ...source.description import Description
 from ..file_rewrites import COPIED
 from ..fix import FixContext, Proposal, substitute, unsafe
 from ..mujoco import keeps_visuals
-from ..rule import INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import UNSAFE, WARNING, Problem, rule
 from .changes import find_existing_uses, propose_compiler, write_new_file
 from .mesh_uses import MeshUse, get_mesh_uses
 from .uris import find_malformation
@@ -71,7 +71,7 @@ def _copy(uses: list[MeshUse], name: str) -> Proposal | None:
 
 
 @rule(
-    INFO,
+    WARNING,
     on=("mujoco",),
     effects={"mujoco": "cannot open package:// paths"},
 )

@@ -18,18 +18,6 @@ _CAMERAS = ("camera", "depth", "depth_camera", "rgbd_camera", "multicamera", "wi
 _FRAME_TAGS = ("frameName", "frame_name", "gz_frame_id", "ignition_frame_id", "optical_frame_id")
 
 
-@rule(INFO, default=False)
-def missing_base_link(robot: Robot) -> Iterator[Problem]:
-    """No link is named ``base_link``.
-
-    In ROS this is the name of the frame that is fixed to a mobile base (REP 105), and the default
-    of many parameters.
-    """
-    root = robot.tree.root
-    if robot.links and not any(name.endswith("base_link") for name in robot.link):
-        yield Problem(root or robot, "no link is named base_link, the ROS name of the base frame")
-
-
 @rule(
     WARNING,
     effects={
@@ -200,45 +188,3 @@ def _get_frames(sensor: Sensor) -> list[str]:
     return [
         e.text.strip() for e in sensor.element.walk() if e.tag in _FRAME_TAGS and e.text.strip()
     ]
-
-
-@rule(INFO, default=False)
-def optical_frame_has_sensor_body(robot: Robot) -> Iterator[Problem]:
-    """An optical frame has geometry or a sensor.
-
-    Cameras in Gazebo look along x, so the sensor belongs to the camera's link. The optical frame
-    must have neither geometry nor sensors.
-    """
-    with_sensor = {sensor.reference for sensor in robot.sensors}
-    for link in robot.links:
-        if "_optical" not in link.name:
-            continue
-        if link.visuals or link.collisions:
-            what = "geometry"
-        elif link.name in with_sensor:
-            what = "a sensor"
-        else:
-            continue
-        yield Problem(link, f"optical frame '{link.name}' has {what}; move it to the camera's link")
-
-
-@rule(INFO, default=False)
-def base_footprint_placement(robot: Robot) -> Iterator[Problem]:
-    """``base_footprint`` is not vertically below ``base_link``.
-
-    ``base_footprint`` is the projection of the base to the ground (REP 120): the fixed joint may
-    have an offset along z, but no rotation in roll or pitch.
-    """
-    for joint in robot.joints:
-        ends = {joint.parent.rpartition("/")[2], joint.child.rpartition("/")[2]}
-        if ends != {"base_footprint", "base_link"}:
-            continue
-        origin = joint.origin
-        x, y, _ = origin.xyz if origin is not None else (0.0, 0.0, 0.0)
-        roll, pitch, _ = origin.rpy if origin is not None else (0.0, 0.0, 0.0)
-        if not joint.is_fixed or max(abs(x), abs(y), abs(roll), abs(pitch)) > 1e-6:
-            yield Problem(
-                joint,
-                f"joint '{joint.name}' does not place base_footprint vertically below base_link",
-                at=origin,
-            )

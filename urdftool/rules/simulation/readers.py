@@ -116,24 +116,3 @@ def write_compiler(problem: Problem, context: FixContext) -> Proposal | None:
     from ..mesh.changes import propose_compiler
 
     return propose_compiler(context)
-
-
-@rule(INFO, default=False)
-def isaac_empty_root(robot: Robot) -> Iterator[Problem]:
-    """The root is a frame without mass and geometry, which Isaac Sim converts to a body.
-
-    Gazebo and MuJoCo lump such a root, for example ``base_footprint``, with the links that are
-    fixed to it, and KDL requires it. The importer of Isaac Sim creates a rigid body for each link,
-    also for frames, so the robot gets a root body without mass. Merge fixed joints when importing,
-    or make the first link with a mass the root.
-    """
-    root = robot.tree.root
-    if root is None or root.inertial is not None or root.visuals or root.collisions:
-        return
-    below = [joint.child for joint in robot.joints if joint.parent == root.name]
-    begin = f", or make link '{below[0]}' the root" if len(below) == 1 else ""
-    yield Problem(
-        root,
-        f"root link '{root.name}' has neither mass nor geometry; for Isaac Sim, merge fixed joints "
-        f"when importing{begin}",
-    )
