@@ -4,6 +4,8 @@ import json
 
 import pytest
 
+from urdftool.api.lint import check
+
 pytestmark = pytest.mark.library("mujoco")
 
 MODEL = """<mujoco><asset><mesh name="m" file="{mesh}"/></asset><worldbody><body>
@@ -31,6 +33,19 @@ def _lint(urdftool, tmp_path, code, texts):
         ("URL = 'https://x/simhive.git'", "../simhive/a.stl", "folder 'simhive' is missing"),
         ("m = MjModel.from_xml_string(text, assets=files)", "a.stl", "hands files over as assets"),
         ("URL = 'simhives'", "../simhive/a.stl", ""),
+        (
+            "SPEC = ('gym/assets', 'a.stl')\n" + "\n" * 500 + "hf_hub_download(SPEC)",
+            "assets/a.stl",
+            "folder 'assets' is missing",
+        ),
+        ("SPEC = 'gym/assets'", "assets/a.stl", ""),
+        ("hf_hub_download('other/assets')", "assets/a.stl", ""),
+        (
+            "TEXT = 'Do not load this.'\nMjModel.from_xml_path('a')",
+            "Do not load this./a.stl",
+            "code of the project replaces 'Do not load this.'",
+        ),
+        ("MjModel.from_xml_path('a')", "Do not load this./a.stl", ""),
         (
             "URL = 'https://x'" + "\n" * 500 + "for side in 'left', 'right': pass",
             "../left/a.stl",
@@ -68,3 +83,31 @@ def test_a_defect_of_the_file_itself_is_an_error(urdftool, tmp_path):
     code = "m = MjModel.from_xml_string(text, assets=files)\npart = mjcf.from_path('a')"
     report, _ = _lint(urdftool, tmp_path, code, [text])
     assert {finding["rule"] for finding in report["findings"]} == {"unreadable-model"}
+
+
+ROBOT = """<robot name="r"><link name="a"><visual><geometry><mesh filename="a.stl"/></geometry>
+</visual></link></robot>"""
+READS = "root = ElementTree.fromstring(Path('r.urdf').read_text())\nmesh = path.read_bytes()\n"
+
+
+@pytest.mark.parametrize(
+    ("code", "elsewhere", "severity"),
+    [
+        (READS, True, "info"),
+        (READS, False, "error"),
+        (READS.replace("r.urdf", "other.urdf"), True, "error"),
+        ("load('r.urdf')\n", True, "error"),
+        ("", True, "error"),
+    ],
+)
+def test_a_mesh_that_code_hands_over_is_no_error(tmp_path, code, elsewhere, severity):
+    (tmp_path / "pyproject.toml").write_text("[project]\n")
+    (tmp_path / "env.py").write_text(code)
+    for name in ("robots", "meshes"):
+        (tmp_path / name).mkdir()
+    if elsewhere:
+        (tmp_path / "meshes" / "a.stl").write_bytes(b"")
+    path = tmp_path / "robots" / "r.urdf"
+    path.write_text(ROBOT)
+    found = check(path, select=["mesh-not-found"])
+    assert [one.severity.label for one in found] == [severity]

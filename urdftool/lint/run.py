@@ -29,7 +29,7 @@ from ..source.location import SourceFile
 from ..source.packages import Packages
 from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
-from .completed_files import find_completing_code
+from .completed_files import find_completing_code, find_supplying_code
 from .drake_directives import find_welded_links
 from .effect_kinds import find_kinds
 from .imported_readers import find_imported_readers
@@ -343,6 +343,7 @@ def _check_description(
                 rejections.add(rule.name, kinds)  # also of one that is off
                 if used is not None and settings.severity.get(rule.name) is None:
                     finding = lower_severity(finding, used, kinds)
+                finding = _pass_over_supplied(finding, description, settings, options)
                 if not settings.is_pedantic_on(rule.name):
                     is_off = (
                         problem.pedantic
@@ -399,6 +400,19 @@ def _check_description(
     report.unread_files = {} if robot is None else collect_unread_files(robot)
     for memo in (description.memo, *([robot.memo] if robot is not None else ())):
         memo.clear()  # breaks a reference cycle with the robot
+
+
+def _pass_over_supplied(
+    finding: Finding, description: Description, settings: Settings, options: Options
+) -> Finding:
+    """Return an info in place of an error about meshes that code of the project supplies."""
+    is_error = finding.code == "mesh-not-found" and finding.severity is Severity.ERROR
+    if not is_error or settings.severity.get(finding.code) is not None or description.path == "-":
+        return finding
+    found = find_supplying_code(options.workspace, description.path, finding.data)
+    if not found:
+        return finding
+    return replace(finding, severity=Severity.INFO, effects={}, hint=found)
 
 
 def _is_info_off(rule: Rule, finding: Finding, settings: Settings) -> bool:
