@@ -61,6 +61,7 @@ from .questions import join_variants, list_questions
 from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
 from .targets import infer_targets
+from .unread_models import name_version
 from .variants import label
 
 
@@ -143,8 +144,14 @@ def _check_variant(
                 if completed_by:
                     report.stopped, report.completed_by = error.message, completed_by
                     return report
-                rule = "not-well-formed" if isinstance(error, XmlError) else "unreadable-model"
-                return _stop(report, find_template_error(error), rule)
+                if isinstance(error, XmlError):
+                    return _stop(report, find_template_error(error), "not-well-formed")
+                report = _stop(report, find_template_error(error), "unreadable-model")
+                if isinstance(error, ModelError):
+                    packages = _make_packages(file, options, configuration)
+                    one = _make_unexpanded(file, [], packages)
+                    report.findings = [name_version(f, one) for f in report.findings]
+                return report
             if other is not None:
                 assert other.source is not None
                 report.unread = other.unread
