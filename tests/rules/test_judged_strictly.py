@@ -105,3 +105,34 @@ def test_a_unit_box_is_scaled_by_the_code_that_loads_it(tmp_path, size, count):
     cube = LINK.format("a", HEAVY) + LINK.format("cube", inside)
     text = f'<robot name="r">{cube}{JOINT.format("a", "cube", "revolute", LIMIT)}</robot>'
     assert len(find(tmp_path, text, "implausible-density")) == count
+
+
+@pytest.mark.parametrize(("tag", "count"), [("ros2_control", 0), ("gazebo", 1)])
+def test_an_expression_for_controllers_matters_to_ros_alone(tmp_path, tag, count):
+    inside = '<joint name="j"><command_interface name="position"><param name="max">{pi}</param>'
+    inside += "</command_interface></joint>"
+    text = f'<robot name="r">{LINK.format("a", HEAVY)}<{tag}>{inside}</{tag}></robot>'
+    assert len(find(tmp_path, text, "unexpanded-expression", targets=frozenset())) == count
+    found = find(tmp_path, text, "unexpanded-expression", targets=frozenset({"ros2"}))
+    assert [f.severity.label for f in found] == ["error"]
+
+
+@pytest.mark.parametrize(("distance", "count"), [(0.06, 0), (0.09, 1)])
+def test_slight_differences_of_left_and_right_are_off(tmp_path, distance, count):
+    def side(name, x):
+        inertial = HEAVY.replace("<mass", f'<origin xyz="{x} 0 0"/><mass')
+        return LINK.format(name, inertial + shape("visual", "0.4 0.1 0.1"))
+
+    links = LINK.format("base", HEAVY) + side("left_arm", 0.05) + side("right_arm", distance)
+    joints = turn("base", "left_arm", "0 0.3 0") + turn("base", "right_arm", "0 -0.3 0")
+    text = f'<robot name="r">{links}{joints}</robot>'
+    assert len(find(tmp_path, text, "left-right-asymmetry")) == count
+
+
+@pytest.mark.parametrize(("far", "count"), [("0", 0), ("0.1", 1)])
+def test_a_sphere_around_a_drone_may_have_a_box_inside(tmp_path, far, count):
+    ball = f'<collision><origin xyz="0 0 {far}"/><geometry><sphere radius="0.09"/></geometry>'
+    body = shape("visual", "0.12 0.12 0.03") + ball + "</collision>"
+    body += shape("collision", "0.1 0.1 0.03")
+    text = f'<robot name="r">{LINK.format("drone", HEAVY + body)}</robot>'
+    assert len(find(tmp_path, text, "collision-much-larger-than-visual")) == count

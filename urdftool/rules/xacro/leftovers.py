@@ -19,7 +19,7 @@ from ..fix import (
     substitute_text,
     unsafe,
 )
-from ..rule import ERROR, INFO, UNSAFE, WARNING, Problem, rule
+from ..rule import ERROR, INFO, ROS, UNSAFE, WARNING, Problem, rule
 from ..unexpanded import is_part, is_unexpanded
 from .definitions import get_definitions
 
@@ -40,14 +40,15 @@ _BRACED = re.compile(r"(?<!\$)\{(\w+)\}")
         "gz, gazebo-classic (plugin)": "pass it to the plugin unchanged",
     },
 )
-def unexpanded_expression(description: Description) -> Iterator[Problem]:
+def unexpanded_expression(description: Description, targets: frozenset[str]) -> Iterator[Problem]:
     """The robot contains an unexpanded xacro expression.
 
     Either ``$`` is missing before a brace (``{prefix}``), or ``$${…}`` is an escape, or the file
     with ``${…}`` is not expanded. The text itself becomes the name, the number or the reference, so
     names do not match, without a message. A URDF with many of them is a xacro file without
     ``xmlns:xacro``; this is one finding. It is an info for a file that uses arguments with
-    ``$(arg …)``, declares none, and is included by a file of a package around it.
+    ``$(arg …)``, declares none, and is included by a file of a package around it, and for a file
+    that has them only in ``<ros2_control>``, if nothing shows that ROS reads it.
     """
     root = description.document.root
     written = filter(_may_be_unexpanded, description.document.elements)
@@ -71,11 +72,12 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                     "rename it to "
                 )
                 remedy += ".urdf.xacro"
+            unread = all(_is_of_control(one) for one, *_ in found) and targets.isdisjoint(ROS)
             yield Problem(
                 element,
                 f"'{_shorten(text)}' is not expanded{more}; {remedy}",
                 at=place,
-                severity=INFO if user else WARNING if meant else None,
+                severity=INFO if user or unread else WARNING if meant else None,
                 effects=tuple(dict.fromkeys(e for one, *_ in found for e in _select_effects(one))),
             )
         return
@@ -104,6 +106,14 @@ def unexpanded_expression(description: Description) -> Iterator[Problem]:
                 data={"name": braced[1]},
                 effects=_select_effects(element),
             )
+
+
+def _is_of_control(element: Element) -> bool:
+    """Tell whether an element is in ``<ros2_control>``, which only controllers of ROS 2 read."""
+    above: Element | None = element
+    while above is not None and above.tag != "ros2_control":
+        above = above.parent
+    return above is not None
 
 
 def _select_effects(element: Element) -> tuple[str, ...]:
