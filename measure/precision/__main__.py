@@ -63,7 +63,7 @@ takes the first verdict that holds:
 A copied model is judged as by its maker, and a file that no code loads as if it were loaded. An
 error that no named reader rejects, or loads as another robot, is marked `"error": false`.
 
-All samples but the last four were judged before this scale was written: *useful* was what a
+All samples but the last six were judged before this scale was written: *useful* was what a
 maintainer would change or needs to know, and *noise* what is true and requires no action.
 
 ## Samples
@@ -121,6 +121,12 @@ robot for two links of mass 0. The two of `axis-not-unit` are true of positions:
 the axis there, but not for torques and gravity (run later). Afterwards targets came from what a
 project imports, effects on readers that do not get the robot or the part were left out, and some
 kinds that were noise were put off by default.
+Seeds 130113 and 130114 ("readers by imports") were drawn of 20 packages that no earlier sample has
+and that gave 160 findings, 59 of them of one package for Drake, and judged by a tenth reader by the
+scale above; they share 24. Infos were useful in 19 %, warnings in 55 %, errors in 31 %. Six of
+the ten wrong findings are about robots for Drake or Tesseract, which were no known readers.
+Afterwards they became readers, dynamics are left out where the code computes none, infos are on
+only of rules whose infos were useful, and many conditions were added (`test_judged_strictly.py`).
 """
 RULES = """\
 ## Rules with findings that were wrong
