@@ -411,6 +411,7 @@ def inertia_below_geometry(
         "pinocchio": "takes it as written",
     },
     of_motion=True,
+    group="robot",
     caused_by=("inertia-triangle-inequality", "inertia-not-positive-definite"),
     formats=ANY_FORMAT,
 )
@@ -465,6 +466,7 @@ def radius_of_gyration(
             f"inertia {high:.4g} kg·m², mass {mass:g} kg{remedy}",
             at=inertial.inertia,
             effects=_select_readers(six),
+            alike=remedy,
             data=data,
         )
 
