@@ -114,6 +114,8 @@ def get_facts(rule: Rule) -> list[tuple[str, str]]:
     facts = [("Severity", severity), ("On", on)]
     if rule.pedantic:
         facts.append(("Off by default", f"{rule.pedantic} (--extend-select {rule.name})"))
+    if rule.infos and rule.default:
+        facts.append(("Infos", "on by default"))
     if rule.name in FIXES:
         facts.append(("Fix", FIXES[rule.name].described))
     for threshold, default in rule.thresholds.items():
