@@ -84,7 +84,7 @@ def write_index() -> str:
     lines.append(
         "A rule with *(off)* is off by default, and of one with *(in part)* the cases that its "
         "page names, because most findings of this kind on real robots were judged as noise. So "
-        "are the infos of every rule whose page does not say that they are on. "
+        "are the infos of every rule whose page does not list them as on. "
         "`--extend-select RULE` reports them, and `--extend-select pedantic` those of all rules."
     )
     lines.append("")

@@ -57,8 +57,7 @@ def test_a_pedantic_case_is_reported_if_its_rule_is_named(tmp_path, options, rep
     assert found == (["finger", "other"] if reported else [])
 
 
-def test_a_wheel_is_reported_where_infos_are_on(tmp_path):
-    (tmp_path / "urdftool.toml").write_text(f'[lint.severity]\n{RULE} = "info"\n')
+def test_a_wheel_is_reported_by_default(tmp_path):
     assert [f.name for f in _check(tmp_path, "wheel_1") if f.code == RULE] == ["wheel_1"]
 
 

@@ -66,8 +66,8 @@ def missing_collision(
     world cannot fall, and is an info. Neither is a robot without any
     collision that only Drake or MuJoCo reads, such as a pendulum of which the motion is computed.
 
-    If nothing shows that Gazebo, MuJoCo, PyBullet or MoveIt reads the robot, it is an info for
-    wheels and feet, and for links of the mass of the others where most links have a collision.
+    If nothing shows that Gazebo, MuJoCo, PyBullet or MoveIt reads the robot, it is an info, except
+    for wheels and feet by name, on which a robot stands.
     Others are off by default: fingers in the collision of a hand, covers, stands that are fixed to
     the world, and links of robots whose authors reduced the collisions or wrote none.
     ``missing-inertial`` reports a robot that has neither a collision nor an inertial.
@@ -96,11 +96,12 @@ def missing_collision(
         if sizes[link.name] < small or _is_enveloped(robot, link) or _is_between(robot, link):
             continue
         is_held = is_fixed_to_world(robot, link)
+        touches = not is_bare and _CONTACT.search(link.name) is not None
         yield Problem(
             link,
             f"link '{link.name}' has a visual but no collision; "
             "add a <collision>, best with a primitive shape",
-            severity=INFO if is_held else None,
+            severity=INFO if is_held else WARNING if touches else None,
             effects=[_LOAD, "moveit", *["mujoco"] * discarded],
             pedantic=not is_simulated and (is_bare or is_held or not _is_expected(robot, link)),
             group="{count} links have a visual but no collision: {names}; "
