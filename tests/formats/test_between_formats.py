@@ -1,5 +1,6 @@
 """Export of robots that were read from SDF or MJCF, compared with their source."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -217,3 +218,114 @@ def test_what_a_reader_left_out_is_not_compared_with_a_stage(write, tmp_path):
     robot = api.load(write("m.xml", mjcf(body).replace("</mujoco>", rest)))
     rows = {c.name: c for c in api.export_usd(robot, tmp_path / "m.usda", verify=True).checks}
     assert {rows[name].verdict for name in ("tree", "actuators")} == {"not compared"}
+
+
+PENDULUM = """<mujoco model="p"><worldbody><body name="b" pos="0 0 1" euler="{} 0 0">
+<geom type="box" size=".05 .05 .05"/><body name="l"><joint name="j" axis="0 0 1" range="-90 90"/>
+<geom type="capsule" fromto="0 0 0 .5 0 0" size=".02" mass="1"/></body></body></worldbody>
+</mujoco>"""
+
+
+def test_the_tilt_of_a_fixed_base_is_in_its_gravity(write, tmp_path):
+    """The joint is vertical, and bears no weight, unless the base is tilted."""
+    tilted, level = (write(f"{a}.xml", PENDULUM.format(a)) for a in (90, 0))
+    rows = [(one.row, one.what) for one in api.verify(tilted, level).list_disagreements()]
+    assert rows == [("gravity", "gravity")]
+    for path, codes in ((tilted, set()), (level, {"lossy-base-pose"})):
+        out = tmp_path / f"out-{len(codes)}"
+        written = api.export_urdf(api.load(path), out, verify=True)
+        assert differing(written) == {}
+        assert {loss.code for loss in written.losses} & {"lossy-base-pose"} == codes
+        assert ('<link name="world"/>' in written.text) is (path is tilted)
+        assert api.verify(path, out / "p.urdf").is_equal
+
+
+def test_a_simulation_begins_with_the_tilt_of_the_base(write):
+    from urdftool.api.start import choose_start
+    from urdftool.simulation.settings import Settings
+
+    settings, _ = choose_start(api.load(write("m.xml", PENDULUM.format(90))), Settings())
+    assert settings.upright_rpy == pytest.approx((math.pi / 2, 0, 0))
+
+
+@pytest.mark.library("pxr")
+def test_several_actuators_of_a_joint_are_one_drive_of_usd(write, tmp_path):
+    drives = '<actuator><position name="p" joint="j" kp="30" forcerange="-4 4"/><motor name="m" '
+    drives += 'joint="j" ctrlrange="-9 9"/></actuator></mujoco>'
+    robot = api.load(write("m.xml", PENDULUM.format(0).replace("</mujoco>", drives)))
+    written = api.export_usd(robot, tmp_path / "m.usda", verify=True)
+    (row,) = (check for check in written.checks if check.name == "actuators")
+    assert row.verdict == "announced"
+    assert [loss.name for loss in written.losses if loss.code == "lossy-actuator"] == ["j"]
+
+
+SHIFTED = """<mujoco model="p"><worldbody><body name="b"><geom size=".1" mass="1"/>
+<body name="c" pos="0 .4 0"><joint name="j" pos="0 .2 .1" axis="1 0 0" range="-60 60"/>
+<geom size=".1" mass="1"/></body></body></worldbody></mujoco>"""
+"""A body whose joint is not at its frame."""
+
+
+@pytest.mark.library("pxr")
+@pytest.mark.parametrize("kind", ["sdf", "usd", "urdf"])
+def test_a_frame_that_moves_to_its_joint_is_announced(kind, write, tmp_path):
+    written = getattr(api, f"export_{kind}")(
+        api.load(write("m.xml", SHIFTED)), tmp_path / "out", verify=True
+    )
+    (row,) = (check for check in written.checks if check.name == "frames")
+    assert row.verdict == "announced"
+    assert "'c'" in row.announced[0]
+    moved = [loss.name for loss in written.losses if loss.code == "lossy-link-frame"]
+    assert moved == ["c"]
+
+
+def test_bodies_keep_the_frames_of_the_links_of_an_sdf(write, tmp_path):
+    import mujoco
+
+    model = api.export_sdf(api.load(write("m.xml", SHIFTED))).text
+    model = model.replace('<pose relative_to="j">0 0 0 0 0 0</pose>', "<pose>0 .4 0 0 0 0</pose>")
+    model = model.replace('<pose relative_to="b">', '<pose relative_to="__model__">')
+    written = api.export_mjcf(api.load(write("m.sdf", model)), tmp_path / "out", verify=True)
+    assert differing(written) == {}
+    compiled = mujoco.MjModel.from_xml_string(written.text)
+    assert compiled.body("c").pos == pytest.approx((0, 0.4, 0))
+    assert compiled.joint("j").pos == pytest.approx((0, 0.2, 0.1))
+
+
+def test_a_simulation_has_the_bodies_at_their_joints(write):
+    (verdict,) = api.simulate(api.load(write("m.xml", SHIFTED)), engine="mujoco")
+    assert verdict.run.recording.read_back == []
+
+
+@pytest.mark.library("pxr")
+def test_a_law_that_no_drive_has_is_announced(write, tmp_path):
+    drive = '<actuator><general name="g" joint="j" gainprm="8" biastype="affine" '
+    drive += 'biasprm="0.5 -8 -0.2"/></actuator></mujoco>'
+    robot = api.load(write("m.xml", PENDULUM.format(0).replace("</mujoco>", drive)))
+    written = api.export_usd(robot, tmp_path / "m.usda", verify=True)
+    (row,) = (check for check in written.checks if check.name == "actuators")
+    assert row.verdict == "announced"
+    assert [loss.name for loss in written.losses if loss.code == "lossy-actuator"] == ["j"]
+
+
+@pytest.mark.library("pxr")
+def test_a_loop_that_is_switched_off_stays_so_in_usd(write, tmp_path):
+    loop = '<equality><connect body1="b" body2="l" anchor="0 0 0" active="false"/></equality>'
+    robot = api.load(write("m.xml", PENDULUM.format(0).replace("</mujoco>", f"{loop}</mujoco>")))
+    written = api.export_usd(robot, tmp_path / "m.usda", verify=True)
+    (row,) = (check for check in written.checks if check.name == "loops")
+    assert row.verdict == "equal"
+    (closure,) = api.load(tmp_path / "m.usda").closures
+    assert closure.is_active is False
+
+
+@pytest.mark.library("pxr")
+@pytest.mark.parametrize("kind", ["sdf", "mjcf", "usd", "urdf"])
+def test_negative_damping_is_reported(kind, write, tmp_path):
+    text = PLANAR.replace("planar", "continuous").replace('"0.3"', '"-0.3"')
+    body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+    text = text.replace('"b"/><joint', f'"b">{body}</inertial></link><joint')
+    written = getattr(api, f"export_{kind}")(
+        api.load(write("p.urdf", text)), tmp_path / "out", verify=True
+    )
+    assert differing(written) == {}
+    assert "lossy-negative-dynamics" in {loss.code for loss in written.losses}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..model.elements import Robot
 from ..model.kinematics import find_movable_joints
+from ..model.pose import make_pose, rpy_from_rotation
 from ..model.start import start_positions
 
 if TYPE_CHECKING:
@@ -22,7 +23,8 @@ def choose_start(robot: Robot, settings: Settings) -> tuple[Settings, list[Findi
         settings: Settings of the simulation; its pose comes first.
 
     Returns:
-        The settings with the positions that differ from zero within the limits, and notes on them.
+        The settings with the positions that differ from zero within the limits and the rotation of
+        the root in the description, and notes on them.
     """
     from ..formats.common.base import decide_base
     from ..formats.common.base_pose import get_robot_origin
@@ -52,7 +54,7 @@ def choose_start(robot: Robot, settings: Settings) -> tuple[Settings, list[Findi
         positions = choose_standing_positions(tree, boxes, home, written)
         positions = choose_holding_positions(tree, boxes, home, positions, written)
     origin = get_robot_origin(tree.robot)
-    turn = (0.0, 0.0, 0.0) if origin is None or tree.robot is robot else origin.rpy
+    turn = rpy_from_rotation(make_pose(origin).rotation)
     plain = start_positions(robot)[0]
     pose = {n: v for n, v in positions.items() if n in leading and v != plain.get(n, 0.0)}
     settings = replace(settings, pose=pose | settings.pose)

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..mechanics.reference import GRAVITY, SLIDING, TURNING, Array, Mechanics
+from ..mechanics.reference import GRAVITY, SLIDING, TURNING, Array, Mechanics, get_origin_matrix
 from ..model.elements import Joint
 from ..model.kinematics import get_limits
 from ..model.provenance import NOWHERE
@@ -37,6 +37,10 @@ A balanced robot has forces that are nothing but rounding.
 """
 
 
+_LEVEL = 1e-6
+"""Sine of the angle between two vertical axes that are equal; chosen, no source."""
+
+
 def compare_dynamics(
     pair: Pair, frame: Array, signs: Mapping[str, float], comparison: Comparison
 ) -> None:
@@ -53,12 +57,29 @@ def compare_dynamics(
     if why:
         comparison.skipped |= dict.fromkeys(GLOBAL_ROWS, why)
         return
-    _compare(Mechanics(one), Mechanics(two), names, signs, comparison)
+    turns = _get_turns(pair, roots, frame)
+    _compare(Mechanics(one), Mechanics(two), names, signs, comparison, turns)
     is_fixed = False in (pair.a.is_free, pair.b.is_free) or WORLD in roots
     if not is_fixed and roots == (pair.a.root, pair.b.root):
         free, free2 = Mechanics(add_free_base(one)), Mechanics(add_free_base(two))
         names |= {f"{BASE}~{i}": f"{BASE}~{i}" for i in range(6)}
         _compare(free, free2, names, signs, comparison)
+
+
+def _get_turns(pair: Pair, roots: tuple[str, str], frame: Array) -> tuple[Array, Array]:
+    """Return the rotations in the world, 3 × 3, of the frame in which both roots are placed.
+
+    A fixed base may be tilted against gravity. One without a pose is upright, as engines have it
+    that fix a root; the start of a free one is no property of the robot.
+    """
+    found: list[Array] = []
+    for bodies, root in zip((pair.a, pair.b), roots, strict=True):
+        base = bodies.robot.base
+        if base is not None and base.is_free:
+            return np.eye(3), np.eye(3)
+        is_placed = base is not None and root != WORLD
+        found.append(get_origin_matrix(base.origin)[:3, :3] if is_placed and base else np.eye(3))
+    return found[0], found[1] @ frame[:3, :3].T
 
 
 def _find_obstacle(
@@ -88,13 +109,20 @@ def _compare(
     pairs: Mapping[str, str],
     signs: Mapping[str, float],
     comparison: Comparison,
+    turns: tuple[Array, Array] | tuple[None, None] = (None, None),
 ) -> None:
-    """Compare mass matrices and gravity forces of two robots at some configurations."""
+    """Compare mass matrices and gravity forces of two robots at some configurations.
+
+    ``turns`` are the rotations of their roots in the world, 3 × 3.
+    """
     names = [joint.name for joint in one.joints]
     others = [pairs[name] for name in names]
     columns = [[joint.name for joint in two.joints].index(name) for name in others]
     sign = np.array([signs.get(name, 1.0) for name in names])
     generator = random.Random(0)
+    tilt = ""
+    if turns[0] is not None and np.abs(turns[0][2] - turns[1][2]).max() > _LEVEL:
+        tilt = "the fixed bases are tilted differently"
     for number in range(_CONFIGURATIONS):
         values = [_draw(joint, generator) if number else 0.0 for joint in one.joints]
         here = dict(zip(names, values, strict=True))
@@ -108,9 +136,10 @@ def _compare(
         _add_matrix(
             comparison,
             "gravity",
-            one.compute_gravity(here),
-            two.compute_gravity(there)[columns] * sign,
+            one.compute_gravity(here, turns[0]),
+            two.compute_gravity(there, turns[1])[columns] * sign,
             _BALANCE * one.compute_centroid(here)[0] * float(np.abs(GRAVITY).max()),
+            tilt,
         )
 
 
@@ -120,7 +149,7 @@ def _draw(joint: Joint, generator: random.Random) -> float:
 
 
 def _add_matrix(
-    comparison: Comparison, row: str, one: Array, two: Array, least: float = 0.0
+    comparison: Comparison, row: str, one: Array, two: Array, least: float = 0.0, why: str = ""
 ) -> None:
     size = max(float(np.abs(one).max()), float(np.abs(two).max()))
     amount = float(np.abs(one - two).max()) / max(size, _FLOOR, least)
@@ -131,7 +160,7 @@ def _add_matrix(
         comparison.differences.remove(difference)
     note = f"{100 * amount:.3g} % of the largest element" if math.isfinite(amount) else ""
     if not any(d for d in comparison.differences if d.row != row and not d.is_convention):
-        note += "; no part differs above its tolerance"
+        note += f"; {why or 'no part differs above its tolerance'}"
     comparison.add(
         Difference(row, "robot", ("", ""), row, (None, None), "", amount, (NOWHERE, NOWHERE), note)
     )

@@ -39,7 +39,10 @@ def announce_additions(checks: Sequence[Check], source: Robot, planned: Robot) -
         "joint physics": (*_list_added_dynamics(*sides), *_list_added_stops(*sides)),
         "sensors": _list_added_sensors(*sides),
         "surface": _list_added_contact(*sides),
-        "actuators": _compare_keys(drives, " with kinds and gains of the export"),
+        "actuators": (
+            *_compare_keys(drives, " with kinds and gains of the export"),
+            *_list_changed_drives(*sides),
+        ),
         "contact pairs": _compare_keys(pairs),
         "configurations": (*_compare_keys(states), *_list_changed_states(*sides)),
     }
@@ -59,6 +62,23 @@ def _describe(what: str, names: Sequence[str], remark: str = "") -> Iterator[str
     if names:
         more = " and so on" if len(names) > 1 else ""
         yield f"{what}: {len(names)}{remark} ('{names[0]}'{more})"
+
+
+def _collect_kinds(robot: Robot) -> dict[str, list[str]]:
+    """Return the kinds of the actuators of each joint."""
+    found: dict[str, list[str]] = {}
+    for actuator in robot.joint_actuators:
+        found.setdefault(actuator.joint, []).append(actuator.mode)
+    return found
+
+
+def _list_changed_drives(source: Robot, planned: Robot) -> Iterator[str]:
+    """Yield texts with the joints whose actuators are fewer, or of another kind, in the export."""
+    one, two = _collect_kinds(source), _collect_kinds(planned)
+    both = [joint for joint in one if joint in two]
+    yield from _describe("several are one", [j for j in both if len(one[j]) > len(two[j])])
+    kinds = [j for j in both if len(one[j]) == len(two[j]) and one[j] != two[j]]
+    yield from _describe("of another kind", kinds)
 
 
 def _list_changed_states(source: Robot, planned: Robot) -> Iterator[str]:

@@ -142,6 +142,20 @@ def report_unwritten_settings(
             )
 
 
+def report_moved_frames(robot: Robot, written: Written) -> None:
+    """Report the links whose frames the source has elsewhere than at their joints."""
+    for frame in robot.frames:
+        if frame.kind == "body":
+            written.report_loss(
+                "link-frame",
+                f"the frame of link '{frame.link}' is at its joint, not where the source has it",
+                frame.place,
+                kind="link",
+                name=frame.link,
+                severity=Severity.INFO,
+            )
+
+
 def report_resistance(joint: Joint, rows: Iterable[Setting], written: Written) -> None:
     """Report values of ``RESISTANCE`` that a format has of joints with one axis only.
 

@@ -67,7 +67,7 @@ def has_copied_home(robot: Robot, options: Options) -> bool:
 
 
 def get_described_home(robot: Robot, options: Options) -> Mapping[str, float]:
-    """Return the joint positions of a key ``home`` that is not copied but written anew, by name."""
+    """Return the joint positions of a key ``home`` that the export writes itself, by name."""
     if has_copies(robot, "keyframe") or options.pose or options.state or options.srdf is not None:
         return {}
     return next((one.positions for one in robot.configurations if one.name == "home"), {})

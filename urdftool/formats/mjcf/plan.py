@@ -147,8 +147,8 @@ def make_plan(robot: Robot, name: str, options: Options, written: Written) -> Pl
 
 
 def _list_body_frames(robot: Robot) -> list[Frame]:
-    """Return the frames of bodies that an export keeps: those of an MJCF."""
-    return [frame for frame in robot.frames if frame.kind == "body" and robot.format == "mjcf"]
+    """Return the frames of bodies that are not at their joints."""
+    return [frame for frame in robot.frames if frame.kind == "body"]
 
 
 def _add_armatures(robot: Robot, loads: Mapping[str, JointLoad]) -> dict[str, JointLoad]:

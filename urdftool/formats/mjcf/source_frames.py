@@ -65,7 +65,7 @@ def _join(outer: etree._Element, inner: etree._Element) -> None:
 
 
 def restore_frames(robot: Robot, bodies: Bodies, sections: Mapping[str, etree._Element]) -> None:
-    """Move the frames of bodies to where the MJCF of a robot has them."""
+    """Move the frames of bodies to where the source of a robot has them."""
     anchors = list_anchors(robot)
     for link, anchor in anchors.items():
         _move_frame(bodies[link], anchor)
@@ -75,10 +75,9 @@ def restore_frames(robot: Robot, bodies: Bodies, sections: Mapping[str, etree._E
 
 def list_anchors(robot: Robot) -> dict[str, Vector]:
     """Return the position [m] of a link's frame in that of its body, where they differ, by link."""
-    frames = robot.frames if robot.format == "mjcf" else ()
     return {
         frame.link: _negate(make_pose(frame.origin).translation)
-        for frame in frames
+        for frame in robot.frames
         if frame.kind == "body"
     }
 

@@ -316,8 +316,7 @@ def _check_frames(
 ) -> Check:
     check = Check("frames", f"pose of every link, {len(configurations)} configurations", POSE)
     torn = declared.has_any(*TORN)
-    has_frames = mechanics.robot.format == "mjcf"  # whose bodies keep their frames
-    frames = [f for f in mechanics.robot.frames if f.kind == "body" and has_frames]
+    frames = [frame for frame in mechanics.robot.frames if frame.kind == "body"]
     in_link = {frame.link: get_origin_matrix(frame.origin) for frame in frames}
     for positions in configurations:
         compiled.set_pose(positions)

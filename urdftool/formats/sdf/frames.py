@@ -8,6 +8,7 @@ from __future__ import annotations
 from ...diagnostic import Severity
 from ...model.elements import Joint, Link
 from ...model.world import WORLD
+from ..common.unexpressed import report_moved_frames
 from .names import remove_reserved
 from .pose import set_origin, set_pose
 from .translation import Translation
@@ -30,6 +31,7 @@ def add_frames(model: Node, t: Translation) -> None:
 def add_own_frames(model: Node, t: Translation) -> None:
     """Add the frames of an SDF and the sites of an MJCF, if SDF has frames and the name is free."""
     taken = {node.get("name") for node in model}
+    report_moved_frames(t.robot, t.written)
     for frame in t.robot.frames:
         if frame.kind == "body":
             continue

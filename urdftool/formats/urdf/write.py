@@ -17,6 +17,7 @@ from ...model.kinematics import UNLIMITED
 from ...model.link import COMPONENTS
 from ...model.mechanism import Base, Frame
 from ...model.numbers import number_text
+from ...model.pose import IDENTITY, make_pose
 from ...model.selection import list_below, measure_tree, select_links
 from ...model.settings import MAGNITUDES, RESISTANCE_OF_URDF
 from ...model.world import WORLD
@@ -28,8 +29,9 @@ from ..common.force_fallbacks import (
     report_tree_defects,
 )
 from ..common.missing_bounds import explain_missing_bounds
-from ..common.naming import replace_file_name, shorten_file_name
+from ..common.naming import UniqueNames, replace_file_name, shorten_file_name
 from ..common.unexpressed import (
+    report_moved_frames,
     report_other_elements,
     report_unwritten_settings,
     report_world_settings,
@@ -56,7 +58,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     options = options or Options()
     stem = replace_file_name(robot.name or "robot")
     written = Written(options.file or f"{shorten_file_name(stem)}.urdf")
-    robot = source = _take_tree(robot, options.root, written)
+    robot = source = _stand_on_world(_take_tree(robot, options.root, written), written)
     left = drop_invalid_parts(robot)
     converted = {joint.name for joint in robot.joints if joint.type in (*BALL_TYPES, "screw")}
     found = [
@@ -220,6 +222,7 @@ def _add_ball(t: Translation, joint: Joint, name: str, parent: str, child: str) 
 
 def _add_frames(t: Translation) -> None:
     """Add a link without mass for each named frame."""
+    report_moved_frames(t.robot, t.written)
     if not t.options.frames:
         for frame in t.robot.frames:
             text = f"{frame.kind} '{frame.name}' is dropped"
@@ -291,6 +294,38 @@ def _take_tree(robot: Robot, root: str, written: Written) -> Robot:
     _report_world(robot, written)
     part = select_links(robot, [link for link in robot.links if link.name in names])
     return replace(part, base=Base(joint.provenance, True, joint.origin))
+
+
+_LEVEL = 1e-9
+"""Sine of the angle of a base that is not tilted; chosen, above rounding errors."""
+
+
+def _stand_on_world(robot: Robot, written: Written) -> Robot:
+    """Return a robot whose tilted fixed base is on a link ``world``; other poses are reported.
+
+    URDF has no pose of the robot, and gravity acts along the z axis of its root.
+    """
+    base, root = robot.base, robot.tree.root
+    if robot.xml is not None or base is None or base.is_free or root is None:
+        return robot
+    pose = make_pose(base.origin)
+    if pose == IDENTITY or root.name == WORLD:
+        return robot
+    if max(map(abs, pose.rotation[2][:2])) <= _LEVEL and pose.rotation[2][2] > 0:
+        written.report_loss(
+            "base-pose",
+            f"the pose of the fixed base '{root.name}' in the world is dropped; it is level",
+            base.place,
+            kind="link",
+            name=root.name,
+            severity=Severity.INFO,
+        )
+        return robot
+    taken = UniqueNames(joint.name for joint in robot.joints)
+    name = taken.take(f"{root.name}_fixed")
+    joint = Joint(base.provenance, name, "fixed", WORLD, root.name, origin=base.origin)
+    links = [Link(base.provenance, WORLD), *robot.links]
+    return replace(robot, links=links, joints=[joint, *robot.joints], base=None)
 
 
 def _list_trees(robot: Robot) -> dict[str, Joint]:

@@ -27,7 +27,7 @@ EXCUSES = (
     Excuse(("tree", "axes", "frames", "limits", "joint physics", "actuators"), frozenset(TREE)),
     Excuse(("frames", "tree", "base"), frozenset(("lossy-floating-joint",)), "robot"),
     Excuse(("tree",), frozenset(("lossy-mimic",))),
-    Excuse(("joint physics",), frozenset(("lossy-joint-resistance",))),
+    Excuse(("joint physics",), frozenset(("lossy-joint-resistance", "lossy-negative-dynamics"))),
     Excuse(("limits",), frozenset(("lossy-effort",)), properties=("limit of effort",)),
     Excuse(("limits",), frozenset(("lossy-ball-limit",))),
     Excuse(("limits",), frozenset(("lossy-velocity",)), properties=("limit of velocity",)),

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...diagnostic import Severity
+from ...listing import quote_first
 from ...model.elements import Joint
 from ...model.mechanism import JointActuator
 from ...model.pose import Pose
@@ -115,6 +116,7 @@ def plan_servos(
     """Choose the servos of a robot; those of its source if that has actuators."""
     robot = bodies.robot
     if options.actuators in AUTO and (robot.joint_actuators or robot.format in ("mjcf", "usd")):
+        _report_laws(bodies, written)
         return list(robot.joint_actuators)
     joints = list_single_joints(bodies)
     drives = list_drives(home.tree, joints, options.actuators, settings, home.ground, written)
@@ -128,6 +130,36 @@ def plan_servos(
             made.append(_make_servo(drive, load, own, timestep, assumed))
     report_gains(robot, assumed, timestep, written)
     return made
+
+
+def _report_laws(bodies: Bodies, written: Written) -> None:
+    """Report actuators with a law that no drive has, and those of one joint, which are one drive.
+
+    The force of a drive is kp · (target − position) + kd · (target velocity − velocity).
+    """
+    for actuator in bodies.robot.joint_actuators:
+        if actuator.mode == "general":
+            written.report_loss(
+                "actuator",
+                f"actuator '{actuator.name}' of joint '{actuator.joint}' is a drive with the gains "
+                f"of its bias; its gain {actuator.gain:g} and constant bias {actuator.bias[0]:g} "
+                "are dropped",
+                actuator.place,
+                kind="joint",
+                name=actuator.joint,
+            )
+    for joint in list_single_joints(bodies):
+        own = [one for one in bodies.robot.joint_actuators if one.joint == joint.name]
+        if len(own) > 1:
+            names = quote_first([one.name for one in own], 3)
+            written.report_loss(
+                "actuator",
+                f"actuators {names} of joint '{joint.name}' are one drive, with the sum of their "
+                "gains and force limits",
+                own[0].place,
+                kind="joint",
+                name=joint.name,
+            )
 
 
 def _add_armature(joint: Joint, load: JointLoad, settings: JointSettings) -> JointLoad:

@@ -23,6 +23,7 @@ from ...model.pose import (
 )
 from ...model.settings import LOST_SETTINGS, RESISTANCE, SPRING
 from ..common.missing_bounds import explain_default_bounds, explain_missing_bounds
+from ..common.remarks import report_negative_dynamics
 from ..common.unexpressed import report_resistance
 from ..written import Written
 from .bodies import Bodies
@@ -176,6 +177,7 @@ class JointWriter:
 
     def _write_dynamics(self, prim: Usd.Prim, joint: Joint) -> None:
         """Write velocity limit and dynamics for Newton and PhysX."""
+        report_negative_dynamics(joint, "which is written as 0", self.written)
         values = _convert_values(joint, self.values[joint.name])
         if joint.limit is not None and joint.limit.velocity == 0:
             self.written.report_loss(

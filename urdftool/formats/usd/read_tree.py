@@ -153,7 +153,7 @@ def _find_frames(context: Context) -> dict[str, tuple[str, Pose]]:
 
 
 def _read_edge(context: Context, prim: Usd.Prim) -> _Edge | None:
-    if not UsdPhysics.Joint(prim).GetJointEnabledAttr().Get():
+    if not _is_enabled(prim) and not _is_excluded(prim):
         context.report_loss("disabled-joint", "disabled joints are not read", prim, Severity.INFO)
         return None
     if prim.IsA(UsdPhysics.DistanceJoint):
@@ -445,14 +445,18 @@ def _is_anchor(context: Context, prim: Usd.Prim) -> bool:
     """Tell whether a joint connects a body and the world."""
     ends = [get_targets(prim, f"physics:body{index}") for index in (0, 1)]
     bodies = [context.find_body(context.stage.GetPrimAtPath(end[0])) if end else "" for end in ends]
-    is_enabled = UsdPhysics.Joint(prim).GetJointEnabledAttr().Get()
-    return "" in bodies and any(bodies) and is_enabled and not _is_excluded(prim)
+    return "" in bodies and any(bodies) and _is_enabled(prim) and not _is_excluded(prim)
+
+
+def _is_enabled(prim: Usd.Prim) -> bool:
+    return bool(UsdPhysics.Joint(prim).GetJointEnabledAttr().Get())
 
 
 def _make_closure(context: Context, edge: _Edge) -> Closure:
     written = context.get_written(edge.prim)
     kinds = {"fixed": "weld", "ball": "connect"}
     closure = Closure(written, edge.prim.GetName(), kinds.get(edge.kind.type, edge.kind.type))
+    closure.is_active = _is_enabled(edge.prim)
     closure.parent = context.names.get(edge.first, "")
     closure.child = context.names.get(edge.second, "")
     first = context.shifts.get(edge.first, IDENTITY).invert() @ edge.first_pose

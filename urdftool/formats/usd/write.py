@@ -22,6 +22,7 @@ from ..common.unexpressed import (
     list_link_exclusions,
     report_blocks,
     report_looks,
+    report_moved_frames,
     report_unexpressed,
     report_unwritten_settings,
 )
@@ -122,6 +123,7 @@ def _write_joints(joints: JointWriter, links: LinkWriter, options: Options, plan
     write_mimics(joints)
     write_closures(joints, written)
     write_frames(links, robot)
+    report_moved_frames(robot, written)
     write_self_collision(links, options, written)
     write_pairs(links, planned.exclusions, options.proofs)
     if planned.exclusions:

@@ -72,7 +72,8 @@ def _remove_without_visuals(robot: Robot, settings: Settings, *, rename: bool) -
         name = get_moving_name(ROOTED)
         links = [replace(link, name=name) if link.name == ROOTED else link for link in links]
         joints = [_make_renamed_ends(joint, name) for joint in joints]
-    return replace(robot, links=links, joints=joints)
+    frames = [frame for frame in robot.frames if frame.kind != "body"]  # bodies are at their joints
+    return replace(robot, links=links, joints=joints, frames=frames)
 
 
 def get_moving_name(name: str) -> str:
