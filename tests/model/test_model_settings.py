@@ -210,3 +210,30 @@ def test_parameters_of_a_sensor_that_an_mjcf_lacks_are_reported(write, tmp_path)
     written = api.export_mjcf(load(write(of("a", sensor))), tmp_path / "out")
     (loss,) = [one for one in written.losses if one.code == "lossy-sensor-parameter"]
     assert loss.message.endswith(": rate, noise")
+
+
+def test_a_block_reaches_the_collisions_that_gazebo_sets(tmp_path):
+    """As sdformat 12.3 does (run): a name that does not begin with the link's gets nothing."""
+    names = {"hull": False, "arm": True, "arm_hull": True, "army": True, "my_arm": False, "": True}
+    shapes = "".join(
+        f"<collision{f' name={name!r}' if name else ''}>"
+        f'<origin xyz="0 0 {place}"/><geometry><box size="1 1 1"/></geometry></collision>'
+        for place, name in enumerate(names)
+    )
+    block = "<mu1>0.4</mu1><maxContacts>3</maxContacts><collision><laser_retro>7</laser_retro>"
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r"><link name="arm"><inertial><mass value="1"/><inertia ixx="1" iyy="1" '
+        f'izz="1" ixy="0" ixz="0" iyz="0"/></inertial>{shapes}</link>'
+        f'<gazebo reference="arm">{block}</collision></gazebo></robot>',
+    )
+    robot = load(path)
+    for collision, is_set in zip(robot.links[0].collisions, names.values(), strict=True):
+        assert set(collision.surface) == (
+            {"friction", "max_contacts", "laser_retro"} if is_set else set()
+        )
+    written = api.export_sdf(robot, tmp_path / "out", verify=True)
+    assert not [check for check in written.checks if check.verdict == "differs"]
+    assert written.text.count("<mu>0.4</mu>") == written.text.count("retro>7<") == 4
+    unset = [loss for loss in written.losses if loss.code == "named-geometry-loses-extensions"]
+    assert ["'hull'" in loss.message or "'my_arm'" in loss.message for loss in unset] == [True] * 2

@@ -92,7 +92,7 @@ class Link(Part):
         is_virtual: Whether a reader inserted it between two joints that the source writes between
             the same two bodies; it has no mass and no geometry.
         settings: Settings of ``settings.OF_LINKS``.
-        surface: Settings that a URDF gives all its collisions.
+        surface: Settings that a URDF gives its collisions; ``read_settings`` says to which.
         gazebo_material: Material of Gazebo that a ``<gazebo>`` block names; empty for none.
     """
 

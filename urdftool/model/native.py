@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ..source.document import Element
 from .appearance import APPEARANCE
-from .block_elements import list_model_elements, list_part_elements
+from .block_elements import is_set_by_block, list_model_elements, list_part_elements
 from .elements import Joint, Link, Robot
 from .kinematics import link_poses
 from .mechanism import NativeElement
@@ -214,7 +214,8 @@ def _list_of_shapes(
     materials = [element for element in elements if element.tag == "material"]
     material = [one for one in materials[-1:] if one.children]
     reflectance = link.surface.get("laser_retro")
-    for shape in (*link.collisions, *link.visuals):
+    collisions = [one for one in link.collisions if is_set_by_block(one.name, link.name)]
+    for shape in (*collisions, *link.visuals):
         rest = [element for element in elements if element.tag == shape.tag]
         rest += material if shape.tag == "visual" else []
         made = make_rest(section, shape.tag, rest, shape.provenance)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from ..source.document import Element
+from .block_elements import is_set_by_block
 from .elements import Robot
 from .numbers import number
 from .settings import (
@@ -143,8 +144,10 @@ def add_settings(robot: Robot) -> None:
         _put_contact(reading, contact)
         _put_raw(reading, shapes, SURFACE)
         link.surface = _read_elements(robot, reading, elements, SURFACE)
-        for collision in link.collisions:
-            collision.surface = link.surface
+        bare = _Reading(link.name)
+        _put_contact(bare, contact)
+        for shape in link.collisions:
+            shape.surface = link.surface if is_set_by_block(shape.name, link.name) else bare.values
         named = [get_text(e) for e in elements if e.tag == "material" and not e.children]
         link.gazebo_material = named[-1] if named else ""
     for joint in robot.joints:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ..source.location import Place
-from .block_elements import list_dangling_blocks
-from .elements import Robot
+from .block_elements import is_set_by_block, list_dangling_blocks, list_part_elements
+from .elements import Collision, Link, Robot, Visual
 from .materials import resolve_material
 from .numbers import describe_content
-from .settings import Settings, Value
+from .settings import SURFACE_TAGS, Settings, Value
+
+UNSET = "named-geometry-loses-extensions"
+"""Name of the rule of ``lint`` on collisions that the blocks of their link do not reach."""
 
 
 class Remark(NamedTuple):
@@ -30,8 +33,29 @@ def list_remarks(robot: Robot) -> Iterator[Remark]:
     for name, block in list_dangling_blocks(robot):
         place = block.locate_attribute("reference")
         yield Remark("dangling-reference", place, "gazebo", name, describe_dangling(robot, name))
+    for link, shape, tags in list_unset_collisions(robot):
+        place, text = shape.locate_attribute("name"), describe_unset(link, shape, tags)
+        yield Remark(UNSET, place, "link", link.name, text)
     yield from _list_repeated(robot)
     yield from _list_undefined(robot)
+
+
+def list_unset_collisions(robot: Robot) -> Iterator[tuple[Link, Collision, list[str]]]:
+    """Yield the collisions whose name keeps the blocks of their link from them, with the tags."""
+    for link in robot.links:
+        tags = {e.tag for e in list_part_elements(robot, link)} & {*SURFACE_TAGS, "collision"}
+        for shape in link.collisions if tags else ():
+            if not is_set_by_block(shape.name, link.name):
+                yield link, shape, sorted(tags)
+
+
+def describe_unset(link: Link, shape: Collision | Visual, tags: Sequence[str]) -> str:
+    """Describe a shape to which Gazebo does not apply the blocks of its link: why, and which."""
+    name = shape.name or ""
+    why = f"does not begin with '{link.name}'"
+    if name.startswith(link.name):
+        why = "is one of a lumped link"
+    return f"name of {shape.tag} '{name}' {why}, so Gazebo applies no {' or '.join(tags)} to it"
 
 
 def _list_repeated(robot: Robot) -> Iterator[Remark]:

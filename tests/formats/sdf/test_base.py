@@ -55,3 +55,15 @@ def test_auto_decides_as_the_export_to_mjcf(write):
         urdftool.export_mjcf(robot, base="fixed").summary,
     )
     assert [summary[0].split()[0] for summary in summaries] == ["free", "fixed"]
+
+
+@pytest.mark.parametrize("base", ["", "fixed", "free"])
+@pytest.mark.parametrize(
+    "pose", ['<origin xyz="0 0 1" rpy="0 0 2"/>', "<gazebo><pose>0 0 1 0 0 2</pose></gazebo>"]
+)
+def test_the_pose_of_a_robot_counts_once(write, base, pose):
+    text = ARM.replace('<link name="a">', f'{pose}<link name="a">', 1)
+    written = urdftool.export_sdf(load(write("r.urdf", text)), base=base, verify=True)
+    assert written.files["model.sdf"].count(b">0 0 1 0 0 2</pose>") == 1
+    assert not [check for check in written.checks if check.verdict == "differs"]
+    assert "lossy-other-element" not in [loss.code for loss in written.losses]

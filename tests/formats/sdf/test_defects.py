@@ -126,6 +126,31 @@ def test_force_leaves_what_can_stand(rule, choices, tmp_path):
     assert is_faithful(checks), [check.differing for check in checks]
 
 
+SENSOR = '<sensor name="s" type="{}"/>'
+
+
+@pytest.mark.parametrize(
+    ("kind", "child", "sensor", "lost"),
+    [
+        ("fixed", "x", ("j", "force_torque"), ["s"]),
+        ("0 0 0", "b", ("b", "camera"), []),
+        ("fixed", "b", ("j", "force_torque"), []),
+    ],
+)
+def test_sensors_of_joints_that_force_changes(kind, child, sensor, lost, tmp_path):
+    reference, type_ = sensor
+    parts = (link("a"), joint("j", "a", child, kind), link("b"))
+    source = robot(*parts, gazebo(reference, SENSOR.format(type_)))
+    options = Options(force=True, file="m.sdf")
+    written = write(source, options)
+    dropped = [loss for loss in written.losses if "is dropped: its joint" in loss.message]
+    assert [loss.name for loss in dropped] == lost
+    place = tmp_path / "m.sdf"
+    place.write_bytes(written.files["m.sdf"])
+    checks = verify(source, written, options, place)
+    assert is_faithful(checks), [check.differing for check in checks]
+
+
 def test_a_world_that_no_link_declares_is_the_world():
     parts = (link("a"), joint("j", "world", "a", "fixed"))
     assert [f.code for f in refused(*parts).findings] == ["unknown-parent-link"]

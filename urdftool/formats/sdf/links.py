@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ...model.block_elements import is_set_by_block
 from ...model.elements import Capsule, Collision, Cylinder, Link, Origin, Sphere, Visual
 from ...model.numbers import format_content
 from ...model.pose import Pose, make_pose, rpy_from_rotation
@@ -63,7 +64,8 @@ def _add_one(node: Node, t: Translation, link: Link, part: Collision, name: str)
     set_place(made, t, link, part.origin)
     assert part.geometry is not None
     add_geometry(made, t, part.geometry)
-    merge_elements(made, t, link, "collision")
+    if is_set_by_block(part.name, link.name):
+        merge_elements(made, t, link, "collision")
     merge_native(made, t, f"link {link.name}", part)
     write_settings(made, part.surface, SURFACE)
 
@@ -80,9 +82,9 @@ def _collect_pieces(part: Collision, capsule: Capsule) -> list[tuple[str, Collis
     ball = Sphere(capsule.provenance, capsule.radius)
     half = capsule.length / 2
     return [
-        ("", replace(part, name=None, geometry=tube)),
-        ("_top", replace(part, name=None, origin=placed(half), geometry=ball)),
-        ("_bottom", replace(part, name=None, origin=placed(-half), geometry=ball)),
+        ("", replace(part, geometry=tube)),
+        ("_top", replace(part, origin=placed(half), geometry=ball)),
+        ("_bottom", replace(part, origin=placed(-half), geometry=ball)),
     ]
 
 

@@ -41,7 +41,7 @@ def report_uncopied(robot: Robot, options: Options, written: Written) -> None:
     """Report what the reader left out, and parts that no element of the export has."""
     in_world = {row.name for row in OF_SDF if options.world}
     robot = replace(robot, world={n: v for n, v in robot.world.items() if n not in in_world})
-    expressed: tuple[str, ...] = ("base", "frame", "joint-spring")
+    expressed: tuple[str, ...] = ("base", "frame", "joint-spring", "origin")
     if robot.format == "sdf":
         expressed = (*expressed, "camera", "sensor", "plugin", "closure")
         codes = {f"unread-{code}" for code in _UNREAD}

@@ -17,12 +17,13 @@ from ...mechanics.tensor import WRITTEN_ROUNDING, get_excess
 from ...model.elements import Link, Mesh, Robot
 from ...model.mechanism import Base
 from ...model.start import start_positions
-from ...model.world import WORLD, find_model_origin, weld_base
+from ...model.world import WORLD, weld_base
 from ..common.base import decide_base
 from ..common.directory import mark
 from ..common.force_fallbacks import (
     FATAL,
     drop_invalid_parts,
+    report_orphaned_sensors,
     report_passed_defects,
     report_tree_defects,
 )
@@ -85,6 +86,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     node = add_model(root, t)
     _report_names(t)
     report_passed_defects(written, found)
+    report_orphaned_sensors(robot, written)
     height = report_start(robot, boxes, options, written)
     _add_files(t, root, node, height)
     return written
@@ -214,4 +216,5 @@ def apply_base(robot: Robot, boxes: ShapeBoxes, base: ChosenBase, written: Writt
         severity=Severity.INFO,
     )
     written.summary.append(f"fixed base ({reason})")
-    return weld_base(replace(robot, base=Base(robot.provenance, False, find_model_origin(robot))))
+    origin = None if robot.base is None else robot.base.origin  # that of a URDF is the model's
+    return weld_base(replace(robot, base=Base(robot.provenance, False, origin)))

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...diagnostic import Severity
 from ...model.block_elements import LUMPED, is_set_by_block, make_taking_name
-from ...model.elements import GazeboExtension, Robot
+from ...model.elements import Collision, GazeboExtension, Link, Robot, Visual
+from ...model.remarks import describe_unset, list_unset_collisions
 from ...model.settings import LUMPING_TAGS, SURFACE_TAGS, get_text, is_set, is_true
 from ...source.document import Element
 from ..fix import (
@@ -266,35 +268,28 @@ def named_geometry_loses_extensions(robot: Robot) -> Iterator[Problem]:
     apply friction, contact or material of the link. Remove the name, or begin it with the name of
     the link. For a visual, which loses its color, it is an info.
     """
+    for link, collision, tags in list_unset_collisions(robot):
+        yield _make_unset(link, collision, tags, WARNING)
     for link in robot.links:
-        words = {
-            child.tag
-            for block in robot.extensions.get(link.name, [])
-            for child in block.element.children
-        }
-        for what, shapes, tags in (
-            ("collision", link.collisions, words & (SURFACE_TAGS | {"collision"})),
-            ("visual", link.visuals, words & {"material", "visual"}),
-        ):
-            for shape in shapes:
-                if tags and shape.name and not is_set_by_block(shape.name, link.name):
-                    lost = " or ".join(sorted(tags))
-                    new = make_taking_name(shape.name, link.name)
-                    begins = shape.name.startswith(link.name)
-                    why = (
-                        "is one of a lumped link"
-                        if begins
-                        else f"does not begin with '{link.name}'"
-                    )
-                    yield Problem(
-                        link,
-                        f"name of {what} '{shape.name}' {why}, so "
-                        f"Gazebo applies no {lost} to it; write '{new}'",
-                        at=shape.locate_attribute("name"),
-                        severity=WARNING if what == "collision" else INFO,
-                        alike=(what, *sorted(tags)),
-                        data={"write": new, "elements": sorted(tags)},
-                    )
+        blocks = robot.extensions.get(link.name, [])
+        words = {child.tag for block in blocks for child in block.element.children}
+        for visual in link.visuals if (tags := sorted(words & {"material", "visual"})) else ():
+            if not is_set_by_block(visual.name, link.name):
+                yield _make_unset(link, visual, tags, INFO)
+
+
+def _make_unset(
+    link: Link, shape: Collision | Visual, tags: list[str], severity: Severity
+) -> Problem:
+    new = make_taking_name(shape.name or "", link.name)
+    return Problem(
+        link,
+        f"{describe_unset(link, shape, tags)}; write '{new}'",
+        at=shape.locate_attribute("name"),
+        severity=severity,
+        alike=(shape.tag, *tags),
+        data={"write": new, "elements": tags},
+    )
 
 
 @named_geometry_loses_extensions.fix(UNSAFE)
