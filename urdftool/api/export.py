@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..arguments import check_arguments
 from ..formats.written import Written
@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from ..formats.common.cut import Cut, Cutter
     from ..formats.common.option import Actuators, Base, FixInertia
     from ..formats.mjcf.options import Exclude, Purpose
+    from ..formats.mjcf.options import Options as MjcfOptions
     from ..formats.sdf.options import ChosenBase, FixedJoints, Target, Uri
+    from .pair_proofs import PairProofs
 
 
 @check_arguments
@@ -156,31 +158,46 @@ def export_mjcf(
             unchanged.
     """
     choices = {**locals()}  # the arguments by name
-    from ..formats.common.option import make_options
     from ..formats.export import finish_export
-    from ..formats.mjcf.options import Options
     from ..formats.registry import format_named
     from .pair_proofs import prove_srdf_pairs
     from .plugin_checks import check_plugin_names
 
     mjcf, robot = format_named("mjcf"), weld_base(robot)
-    name = Path(output).name if output is not None else ""
     proofs = prove_srdf_pairs(robot, srdf)
-    options = make_options(
-        Options,
-        choices,
-        file=name if mjcf.has_suffix(name) else "",
-        cutter=make_cutter(robot),
-        state=state,
-        overlap=measure_overlap,
-        proofs=proofs.texts,
-    ).complete()
+    options = make_mjcf_options(robot, output or "", choices, proofs)
     written = mjcf.write(robot, options)
     written.losses += [*proofs.findings, *check_plugin_names(robot)]
     written.checks = finish_export(
         mjcf, robot, options, written, output, verify=verify, overwrite=overwrite
     )
     return written
+
+
+def make_mjcf_options(
+    robot: Robot, output: str | Path, choices: Mapping[str, Any], proofs: PairProofs
+) -> MjcfOptions:
+    """Make the options of an export to MJCF.
+
+    Args:
+        robot: The robot, with its base.
+        output: File or folder of the model.
+        choices: Values of the options, and ``state``.
+        proofs: Those of the pairs of its SRDF.
+    """
+    from ..formats.common.option import make_options
+    from ..formats.mjcf.options import Options
+    from ..formats.registry import format_named
+
+    return make_options(
+        Options,
+        choices,
+        file=Path(output).name if format_named("mjcf").has_suffix(output) else "",
+        cutter=make_cutter(robot),
+        state=choices["state"],
+        overlap=measure_overlap,
+        proofs=proofs.texts,
+    ).complete()
 
 
 def measure_overlap(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..arguments import check_arguments
 from ..formats.written import Written
@@ -12,7 +12,8 @@ from ..model.elements import Robot
 
 if TYPE_CHECKING:
     from ..formats.common.option import Actuators, Base, FixInertia
-    from ..formats.usd.options import Approximation, Layers, Target
+    from ..formats.usd.options import Approximation, Layers, Options, Target
+    from .pair_proofs import PairProofs
 
 
 @check_arguments
@@ -69,35 +70,53 @@ def export_usd(
     """
     choices = {**locals()}  # the arguments by name
     from ..extras import require
-    from ..formats.common.option import make_options
     from ..formats.export import finish_export
     from ..formats.registry import format_named
-    from ..formats.usd.options import Options
-    from .export import make_cutter
-    from .overlaps import find_overlaps
     from .pair_proofs import prove_srdf_pairs
     from .plugin_checks import check_plugin_names
 
-    usd = format_named("usd")
-    file = Path(output).name if output is not None and usd.has_suffix(output) else ""
     require("export_usd", "pxr")
-    proofs = prove_srdf_pairs(robot, srdf)
-    options = make_options(
-        Options,
-        choices,
-        file=file,
-        cutter=make_cutter(robot),
-        overlaps=find_overlaps,
-        proofs=proofs.texts,
-        state=state,
-    )
-    if output is not None and options.file and not overwrite:
-        from ..formats.usd.files import check_replaced
-
-        check_replaced(Path(output))
+    usd, proofs = format_named("usd"), prove_srdf_pairs(robot, srdf)
+    options = make_usd_options(robot, output or "", choices, proofs)
     written = usd.write(robot, options)
     written.losses += [*proofs.findings, *check_plugin_names(robot)]
     written.checks = finish_export(
         usd, robot, options, written, output, verify=verify, overwrite=overwrite
     )
     return written
+
+
+def make_usd_options(
+    robot: Robot, output: str | Path, choices: Mapping[str, Any], proofs: PairProofs
+) -> Options:
+    """Make the options of an export to USD.
+
+    Args:
+        robot: The robot.
+        output: File or folder of the stage.
+        choices: Values of the options, ``state`` and ``overwrite``.
+        proofs: Those of the pairs of its SRDF.
+
+    Raises:
+        OutputError: The output is a file that the export would not replace.
+    """
+    from ..formats.common.option import make_options
+    from ..formats.registry import format_named
+    from ..formats.usd.options import Options
+    from .export import make_cutter
+    from .overlaps import find_overlaps
+
+    options = make_options(
+        Options,
+        choices,
+        file=Path(output).name if format_named("usd").has_suffix(output) else "",
+        cutter=make_cutter(robot),
+        overlaps=find_overlaps,
+        proofs=proofs.texts,
+        state=choices["state"],
+    )
+    if options.file and not choices["overwrite"]:
+        from ..formats.usd.files import check_replaced
+
+        check_replaced(Path(output))
+    return options

@@ -8,7 +8,6 @@ from typing import Any
 import click
 
 from ..console import Console
-from ..formats.common.option import make_options
 from ..formats.mjcf.options import Options
 from .export_many import ExportCommand, add_robots_argument
 from .export_options import add_declared_options, add_output_option, make_export_options
@@ -54,7 +53,7 @@ def command(
         urdftool export mjcf panda.urdf -o panda/ --scene --verify
         urdftool export mjcf quadruped.urdf.xacro -o q/ --scene --for rl
     """  # noqa: D301 -- click's mark for lines it must not wrap
-    from ..api.export import make_cutter, measure_overlap
+    from ..api.export import make_mjcf_options
     from ..api.plugin_checks import check_plugin_names
     from ..formats.registry import format_named
     from ..model.world import weld_base
@@ -63,17 +62,9 @@ def command(
     mjcf, place = format_named("mjcf"), output or "-"
     model = weld_base(read_any(console, robot, package, package_path, quiet=True))
     report_gltf_axes(console, model)
-    state, choices["pose"] = choices["pose"]
+    choices["state"], choices["pose"] = choices["pose"]
     proofs = prove_pairs(console, model, choices["srdf"])
-    options = make_options(
-        Options,
-        choices,
-        file=Path(place).name if mjcf.has_suffix(place) else "",
-        cutter=make_cutter(model),
-        state=state,
-        overlap=measure_overlap,
-        proofs=proofs.texts,
-    ).complete()
+    options = make_mjcf_options(model, place, choices, proofs)
     return run_export(
         console,
         mjcf,

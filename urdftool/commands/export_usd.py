@@ -8,7 +8,6 @@ from typing import Any
 import click
 
 from ..console import Console
-from ..formats.common.option import make_options
 from ..formats.usd.options import Options
 from .export_many import ExportCommand, add_robots_argument
 from .export_options import add_declared_options, add_output_option, make_export_options
@@ -69,8 +68,7 @@ def command(
         urdftool export usd panda.urdf -o panda.usdc --verify
         urdftool export usd quadruped.urdf.xacro -o q/ --base free --target isaac
     """  # noqa: D301 -- click's mark for lines it must not wrap
-    from ..api.export import make_cutter
-    from ..api.overlaps import find_overlaps
+    from ..api.export_usd import make_usd_options
     from ..api.plugin_checks import check_plugin_names
     from ..extras import require
     from ..formats.registry import format_named
@@ -80,24 +78,11 @@ def command(
     usd, place = format_named("usd"), output or "-"
     model = read_any(console, robot, package, package_path, quiet=True)
     report_gltf_axes(console, model)
-    file = Path(place).name if usd.has_suffix(place) else ""
     proofs = prove_pairs(console, model, choices["srdf"])
-    state, choices["pose"] = choices["pose"]
-    options = make_options(
-        Options,
-        choices,
-        file=file,
-        cutter=make_cutter(model),
-        overlaps=find_overlaps,
-        proofs=proofs.texts,
-        state=state,
-    )
     if isaaclab is not None and place == "-":
         raise click.UsageError("--isaaclab requires -o OUT, the stage to which it refers")
-    if options.file and not choices["overwrite"]:
-        from ..formats.usd.files import check_replaced
-
-        check_replaced(Path(place))
+    choices["state"], choices["pose"] = choices["pose"]
+    options = make_usd_options(model, place, choices, proofs)
     code = run_export(
         console,
         usd,

@@ -14,6 +14,7 @@ from ..source.description import Description
 from ..source.document import Element, parse
 from ..source.edit import Edit, read_literal
 from ..source.location import SourceFile
+from ..source.xacro_names import TAGS
 from .draft import TextDraft
 
 _PARENTS = ("parent", "parent_link", "parent_frame", "connected_to", "attach_to")
@@ -21,7 +22,6 @@ _PARENTS = ("parent", "parent_link", "parent_frame", "connected_to", "attach_to"
 
 Those of the packages of ros2_control_demos, UR, Robotiq (``parent``) and Franka (``connected_to``).
 """
-_SYNTAX = ("arg", "include", "property", "macro", "if", "unless", "insert_block", "call", "element")
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ def _insert(arguments: Mapping[str, str], text: str) -> str:
 
 def _is_call(element: Element) -> bool:
     head, _, name = element.tag.partition(":")
-    return head == "xacro" and name not in _SYNTAX
+    return head == "xacro" and name not in TAGS
 
 
 def _is_kept(element: Element) -> bool:

@@ -27,6 +27,7 @@ from ..errors import ConfigError, UrdftoolError
 from ..rules.unexpanded import is_part
 from ..source.document import Element, parse, read_file
 from ..source.packages import Packages
+from ..source.xacro_names import CONDITIONS
 from ..workspace import Workspace
 from .discover import ENDINGS, has_ending, list_files
 from .launches import UNKNOWN, Use, read_uses
@@ -246,7 +247,7 @@ def _has_content(root: Element) -> bool:
         element = todo.pop()
         if element.tag == "link":
             return True
-        if element.tag in ("xacro:if", "xacro:unless"):
+        if element.tag in CONDITIONS:
             todo += element.children
         elif element.tag.startswith("xacro:") and element.tag not in _DEFINITIONS:
             return True

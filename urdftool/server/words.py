@@ -12,6 +12,7 @@ from ..rules.moveit.semantic import find_references
 from ..rules.renaming import list_joint_references, list_link_references
 from ..source.document import Document, Element
 from ..source.tags import locate_value
+from ..source.xacro_names import TAGS
 
 WordKind = Literal[
     "name", "macro", "argument", "package", "file", "link", "joint", "part", "material"
@@ -19,13 +20,7 @@ WordKind = Literal[
 """Property or parameter; macro; argument; package; file; link; joint; link or joint; material."""
 
 XACRO = "xacro:"
-BUILT_IN = frozenset(
-    XACRO + word
-    for word in (
-        *("macro", "property", "arg", "include", "insert_block", "call", "if", "unless"),
-        *("element", "attribute"),
-    )
-)
+BUILT_IN = frozenset(XACRO + tag for tag in TAGS)
 """Elements of xacro that are not calls of macros."""
 
 _FILES = (f"{XACRO}include", "include", "mesh", "texture")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..suggestions import find_nearest, suggest_name
 from .packages import shorten_path
+from .xacro_names import TAGS
 from .xacro_tree import XacroElement
 
 if TYPE_CHECKING:
@@ -30,11 +31,6 @@ _PROPERTY_NAME = re.compile(r"Property names must (?:be valid|not start).*?: ?(.
 _EMPTY_NAME = re.compile(r"(xacro:\w+): empty name")
 _SUBSTITUTION = re.compile(r"\$\((env|optenv|find|arg|dirname|anon)\b.*?\[(.*?)\]")
 _ODD_CHARACTER = re.compile(r"(Dollar signs|Invalid left parenthesis).*?\[(.*?)\](?!\))")
-_TAGS = (
-    *("arg", "attribute", "call", "element", "if", "include", "insert_block", "macro"),
-    *("property", "unless"),
-)
-"""Tags of xacro itself; all others are macro calls."""
 _SHOWN = 200  # characters of an expression in a message; chosen
 _ARGUMENTS = {"env": "NAME", "optenv": "NAME DEFAULT", "find": "PACKAGE", "arg": "NAME"}
 
@@ -111,7 +107,7 @@ def _explain_names(failure: Failure) -> Explanation | None:
     """Explain undefined names."""
     text, result, failed_text = failure.text, failure.result, failure.failed_text
     if match := _UNKNOWN_MACRO.search(text):
-        near = find_nearest(match[1], sorted({*_TAGS, *(name for name, _ in _list_macros(result))}))
+        near = find_nearest(match[1], sorted({*TAGS, *(name for name, _ in _list_macros(result))}))
         hint = f"; did you mean '{near}'?" if near else ""
         data = {"name": match[1], "suggestion": near}
         return Explanation("unknown-macro", f"unknown macro '{match[1]}'{hint}", data)

@@ -89,7 +89,7 @@ def test_a_link_and_a_joint_of_one_name_each_get_their_own():
 
 
 def test_a_reference_to_nothing_is_said():
-    blocks = gazebo("{prefix}a", "<mu1>1</mu1>"), gazebo("foot", "")
+    blocks = gazebo("{prefix}a", "<mu1>1</mu1>"), gazebo("a_foot", "")
     written = format_named("sdf").write(robot(link("a", NAMED), *blocks), Options())
     assert rules(written) == ["dangling-reference", "dangling-reference"]
     assert "it is a shape of link 'a'" in written.losses[1].message

@@ -54,12 +54,11 @@ def plan_actuators(
     Returns:
         The actuators, and settings that follow from their gains, by the name of the joint.
     """
-    kinds = {joint.name: structure.get_kind(joint) for joint in structure.moving}
-    robot = structure.robot
+    robot, single = structure.robot, list(filter(structure.is_single, structure.moving))
     if options.actuators in AUTO and (robot.joint_actuators or robot.format == "mjcf"):
-        own = [one for one in robot.joint_actuators if kinds.get(one.joint) in SINGLE]
-        return own, {}
-    joints = [j for j in structure.moving if kinds[j.name] in SINGLE and get_locked_at(j) is None]
+        names = {joint.name for joint in single}
+        return [one for one in robot.joint_actuators if one.joint in names], {}
+    joints = [joint for joint in single if get_locked_at(joint) is None]
     drives = list_drives(structure, joints, options.actuators, settings, ground, written)
     if options.purpose == "rl":
         drives = list(replace_motors(drives, settings))
@@ -67,9 +66,9 @@ def plan_actuators(
     assumed: dict[str, Gain] = {}
     made = []
     for drive in drives:
-        name = drive.joint.name
+        name, kind = drive.joint.name, structure.get_kind(drive.joint)
         load, chosen = loads.get(name, JointLoad()), settings.get(name, JointSettings())
-        made.append(_plan_actuator(drive, kinds[name], load, chosen, timestep, assumed))
+        made.append(_plan_actuator(drive, kind, load, chosen, timestep, assumed))
     stops = _choose_stops(drives, assumed, timestep)
     remark = "the stops of these joints are as stiff as the step allows" if stops else ""
     report_gains(robot, assumed, timestep, written, remark=remark)
@@ -175,7 +174,3 @@ def _build_element(actuator: JointActuator, joint: Joint) -> etree._Element:
     else:
         element.set("ctrlrange", format_numbers_text(actuator.control_range))
     return element
-
-
-SINGLE = ("hinge", "slide")
-"""Kinds of joints with one position, which actuators drive."""

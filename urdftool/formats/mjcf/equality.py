@@ -18,7 +18,7 @@ def build_equality_section(structure: Structure, written: Written) -> etree._Ele
     for joint in structure.moving:
         if joint.mimic is not None:
             _follow(structure, joint, section, written)
-        if structure.get_kind(joint) not in ("hinge", "slide"):
+        if not structure.is_single(joint):
             continue
         held = get_locked_at(joint)
         if held is not None:
@@ -29,7 +29,7 @@ def build_equality_section(structure: Structure, written: Written) -> etree._Ele
 
 def follows(structure: Structure, joint: Joint) -> bool:
     """Tell whether a joint mimics another one."""
-    if joint.mimic is None or structure.get_kind(joint) not in ("hinge", "slide"):
+    if joint.mimic is None or not structure.is_single(joint):
         return False
     leader = structure.robot.joint.get(joint.mimic.joint)
     return leader is not None and leader is not joint
@@ -39,7 +39,7 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
     mimic = joint.mimic
     assert mimic is not None
     leader = structure.robot.joint.get(mimic.joint)
-    if leader is None or leader is joint or structure.get_kind(joint) not in ("hinge", "slide"):
+    if leader is None or leader is joint or not structure.is_single(joint):
         _report_mimic_loss(joint, "its motion is not coupled", written)
     elif structure.get_kind(leader) == "weld":
         held = mimic.offset + mimic.multiplier * structure.locked.get(leader.name, 0.0)
@@ -52,7 +52,7 @@ def _follow(structure: Structure, joint: Joint, section: etree._Element, written
             name=joint.name,
             severity=Severity.INFO,
         )
-    elif structure.get_kind(leader) not in ("hinge", "slide"):
+    elif not structure.is_single(leader):
         _report_mimic_loss(
             joint,
             f"'{mimic.joint}' of type {leader.type} cannot be a mimic leader in MuJoCo",

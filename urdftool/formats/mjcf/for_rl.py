@@ -122,7 +122,7 @@ def list_joint_sensors(structure: Structure, driven: Set[str]) -> Iterator[Mount
     there = {(sensor.type, sensor.joint) for sensor in structure.robot.mounted_sensors}
     for tag, suffix in (*JOINT_KINDS, DRIVEN_KIND):
         for joint in structure.moving:
-            if structure.get_kind(joint) not in ("hinge", "slide"):
+            if not structure.is_single(joint):
                 continue
             if (tag, joint.name) in there or (tag == DRIVEN_KIND[0] and joint.name not in driven):
                 continue

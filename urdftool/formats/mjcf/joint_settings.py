@@ -29,7 +29,7 @@ def choose_joint_settings(structure: Structure, options: Options) -> dict[str, J
     names = [
         joint.name
         for joint in structure.moving
-        if structure.get_kind(joint) in ("hinge", "slide") and get_locked_at(joint) is None
+        if structure.is_single(joint) and get_locked_at(joint) is None
     ]
     usual = JointSettings(armature=options.armature)
     settings = described_gains.choose_joint_settings(

@@ -168,14 +168,13 @@ def _is_planar(structure: Structure, closure: Closure, axis: Vector) -> bool:
     paths = [_to_root(structure, link) for link in (closure.child, closure.parent)]
     for link in set(paths[0]) ^ set(paths[1]):
         joint = structure.robot.tree.get_parent_joint(link)
-        kind = structure.get_kind(joint) if joint is not None else "weld"
-        if kind == "weld" or joint is None:
+        if joint is None or structure.get_kind(joint) == "weld":
             continue
-        if kind not in ("hinge", "slide") or joint.axis is None:
+        if not structure.is_single(joint) or joint.axis is None:
             return False
         own = rotate(structure.get_pose_at_zero(link).rotation, joint.axis.xyz)
         along = abs(compute_dot(axis, own)) / compute_norm(own)
-        if abs(along - (1.0 if kind == "hinge" else 0.0)) > 1e-6:
+        if abs(along - (structure.get_kind(joint) == "hinge")) > 1e-6:
             return False
     return True
 

@@ -88,7 +88,7 @@ def _summarize(structure: Structure, options: Options, actuators: int, written: 
     count = "1 actuator" if actuators == 1 else f"{actuators} actuators"
     is_assumed = any(loss.code == "lossy-gains" for loss in written.losses)
     written.summary.append(f"{count} with assumed gains" if is_assumed else count)
-    moves = any(structure.get_kind(joint) in ("hinge", "slide") for joint in structure.moving)
+    moves = any(structure.is_single(joint) for joint in structure.moving)
     if moves and not actuators and options.actuators in ("auto", "described"):
         written.advice.append(
             "the model has no actuators, as the source describes; --actuators position adds servos"
@@ -161,7 +161,7 @@ def _build_custom(structure: Structure, name: str) -> etree._Element | None:
         etree.SubElement(section, "text", name="robot_name", data=structure.robot.name)
     for joint in structure.moving:
         velocity = joint.get_magnitude("velocity")
-        if velocity is not None and structure.get_kind(joint) in ("hinge", "slide"):
+        if velocity is not None and structure.is_single(joint):
             own = f"{joint.name}_velocity_limit"
             etree.SubElement(section, "numeric", name=own, data=number_text(velocity))
     return section if len(section) else None

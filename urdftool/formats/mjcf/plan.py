@@ -28,7 +28,7 @@ from ..common.standing import measure_ground
 from ..common.standing_pose import choose_standing_positions, report_support
 from ..common.upright import turn_upright
 from ..written import Written
-from .actuator import SINGLE, plan_actuators
+from .actuator import plan_actuators
 from .contact import plan_exclusions
 from .copied import get_described_home, has_copied_home, has_copies
 from .for_rl import add_rotors, find_feet, list_joint_sensors, set_foot_contact
@@ -223,7 +223,7 @@ def _list_single(structure: Structure, positions: Mapping[str, float]) -> dict[s
     return {
         joint.name: positions.get(joint.name, 0.0)
         for joint in structure.moving
-        if structure.get_kind(joint) in SINGLE
+        if structure.is_single(joint)
     }
 
 

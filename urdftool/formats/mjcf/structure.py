@@ -60,6 +60,10 @@ class Structure:
             return "weld"
         return KINDS.get(joint.type, "weld")
 
+    def is_single(self, joint: Joint) -> bool:
+        """Tell whether a joint has one position, which actuators and equalities can set."""
+        return self.get_kind(joint) in ("hinge", "slide")
+
     @cached_property
     def locked(self) -> dict[str, float]:
         """Return the position [rad or m] of each joint that is welded for its equal limits."""

@@ -9,6 +9,7 @@ from ...model.elements import Robot
 from ...model.read import number
 from ...source.description import Description
 from ...source.document import Element
+from ...source.xacro_names import CONDITIONS
 from ..fix import (
     Change,
     FixContext,
@@ -239,7 +240,7 @@ def _list_optional_names(description: Description) -> list[re.Pattern[str]]:
         for block in document.root.walk()
         if block.tag == "ros2_control"
         for condition in block.walk()
-        if condition.tag in ("xacro:if", "xacro:unless")
+        if condition.tag in CONDITIONS
         for part in condition.walk()
         if part.tag == "joint" or part.tag.startswith("xacro:")
         for key, name in part.attributes.items()

@@ -10,6 +10,7 @@ from ...model.kinematics import MOVABLE
 from ...model.settings import is_set
 from ...source.description import Description
 from ...source.document import parse, parse_once
+from ...source.xacro_names import CONDITIONS
 from ..control.dependence import OF_GAZEBO, depends_on_control
 from ..cross_file_references import check_not_included
 from ..fix import Change, FixContext, Proposal, append_child, escape_attribute, is_computed, unsafe
@@ -262,7 +263,7 @@ def _has_gazebo_part(description: Description) -> bool:
         part.tag == "gazebo" or _FOR_GAZEBO.search(part.get("filename") or "")
         for file in description.files
         for element in parse(file).root.walk()
-        if element.tag in ("xacro:if", "xacro:unless")
+        if element.tag in CONDITIONS
         for part in element.walk()
     )
 

@@ -25,6 +25,15 @@ def compute_joint_inertia(robot: Robot, joint: Joint, poses: dict[str, Pose]) ->
     return one * other / (one + other) if other > 0 else one
 
 
+def compute_highest_damping(inertia: float, timestep: float) -> float:
+    """Compute the damping [N·m·s/rad or N·s/m] above which an explicit integrator oscillates.
+
+    A damper removes d·Δt/I of the speed in each step, which overshoots if that is more than twice
+    the speed: 2·I/Δt.
+    """
+    return 2 * inertia / timestep
+
+
 def _compute_about_axis(
     robot: Robot, joint: Joint, poses: dict[str, Pose], links: set[str]
 ) -> float:

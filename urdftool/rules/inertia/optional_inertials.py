@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ...source.description import Description
 from ...source.document import Element, parse_once
+from ...source.xacro_names import CONDITIONS
 
 
 def has_optional_inertials(description: Description) -> bool:
@@ -14,7 +15,7 @@ def has_optional_inertials(description: Description) -> bool:
         "inerti" in part.tag
         for file in description.files
         for element in parse_once(file).root.walk()
-        if element.tag in ("xacro:if", "xacro:unless") and _is_in_link(element)
+        if element.tag in CONDITIONS and _is_in_link(element)
         for part in element.walk()
     )
 

@@ -21,7 +21,7 @@ from ..rule import ANY_FORMAT, ERROR, INFO, UNSAFE, WARNING, Problem, rule
 from ..symmetry import find_twin
 from .bodies import compute_body_inertia, compute_mass, find_rigid_bodies
 from .corrections import MASS_IN_DOUBT, write_inertia_of_shapes, write_meant_inertia
-from .joint_inertia import compute_joint_inertia
+from .joint_inertia import compute_highest_damping, compute_joint_inertia
 from .proposals import describe_remedy, get_recompute_hint
 from .solids import describe_solid, get_solid_kind
 from .tensors import (
@@ -447,7 +447,7 @@ def tiny_moving_inertia(
         unit, force, way = ("kg", "N", "m") if slides else ("kg·m²", "N·m", "rad")
         quantity = "mass" if slides else "inertia"
         thrown = effort * timestep**2 / inertia
-        if "pybullet" in targets and damping * timestep > 2 * inertia:
+        if "pybullet" in targets and damping > compute_highest_damping(inertia, timestep):
             least = damping * timestep / 2
             lowered = "damping"
             why = (

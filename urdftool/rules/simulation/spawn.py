@@ -10,7 +10,7 @@ from ...model.elements import Robot
 from ...model.kinematics import MOVABLE, get_zero_poses
 from ...model.pose import rotate, transpose
 from ..collision.convex_bodies import get_convex_bodies
-from ..inertia.joint_inertia import compute_joint_inertia
+from ..inertia.joint_inertia import compute_highest_damping, compute_joint_inertia
 from ..rule import INFO, Problem, rule
 
 
@@ -37,15 +37,16 @@ def stiff_joint_damping(robot: Robot, *, timestep: float = 0.001) -> Iterator[Pr
         if joint.type not in MOVABLE or not damping or joint.child not in poses:
             continue
         inertia = compute_joint_inertia(robot, joint, poses)
-        if inertia > 0 and damping * timestep > 2 * inertia and joint.dynamics is not None:
+        highest = compute_highest_damping(inertia, timestep)
+        if inertia > 0 and damping > highest and joint.dynamics is not None:
             unit = "kg" if joint.type == "prismatic" else "kg·m²"
             yield Problem(
                 joint,
                 f"damping {damping:g} of joint '{joint.name}' is too large for its {inertia:.3g} "
                 f"{unit}: at {timestep * 1000:g} ms steps it must be below "
-                f"{2 * inertia / timestep:.3g}",
+                f"{highest:.3g}",
                 at=joint.dynamics,
-                data={"damping": damping, "highest": 2 * inertia / timestep, "inertia": inertia},
+                data={"damping": damping, "highest": highest, "inertia": inertia},
             )
 
 

@@ -7,13 +7,13 @@ from collections.abc import Iterator
 from ...model.urdf_schema import VOCABULARY
 from ...source.description import Description
 from ...source.document import Document, Element
+from ...source.xacro_names import UNPREFIXED
 from ..fix import FixContext, Proposal, rename_element, safe, set_attribute, unsafe
 from ..rule import ERROR, INFO, SAFE, UNSAFE, Problem, rule
 from .definitions import get_macro_names
 
 XMLNS = "http://www.ros.org/wiki/xacro"
 
-_TAGS = frozenset(("include", "macro", "property", "if", "unless", "insert_block", "arg"))
 _DIALECT_TAGS = frozenset(("gazebo", "ros2_control", "mujoco", "transmission", "plugin", "sensor"))
 _URDF = VOCABULARY.keys()
 
@@ -68,7 +68,7 @@ def unprefixed_xacro_tag(document: Document, description: Description) -> Iterat
     if "xmlns:xacro" not in document.root.attributes:
         return
     macros = get_macro_names(description)
-    if document.elements_by_tag.keys().isdisjoint((macros | _TAGS) - (_URDF - _TAGS)):
+    if document.elements_by_tag.keys().isdisjoint((macros | UNPREFIXED) - (_URDF - UNPREFIXED)):
         return
     for element in document.root.children:
         yield from _find_unprefixed(element, macros)
@@ -78,8 +78,8 @@ def _find_unprefixed(element: Element, macros: frozenset[str]) -> Iterator[Probl
     tag = element.tag
     if tag in _DIALECT_TAGS:
         return
-    if tag in _TAGS or (tag in macros and tag not in _URDF):
-        what = "is not expanded" if tag in _TAGS else "does not call the macro"
+    if tag in UNPREFIXED or (tag in macros and tag not in _URDF):
+        what = "is not expanded" if tag in UNPREFIXED else "does not call the macro"
         yield Problem(element, f"<{tag}> without the prefix xacro: {what}; write <xacro:{tag}>")
     for child in element.children:
         yield from _find_unprefixed(child, macros)

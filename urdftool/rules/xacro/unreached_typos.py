@@ -14,20 +14,12 @@ from ...model.urdf_schema import BLOCKS, DIALECT_ATTRIBUTES, VOCABULARY
 from ...source.description import Description
 from ...source.document import Document, Element
 from ...source.location import Place
+from ...source.xacro_names import TAGS
 from ..rule import ERROR, Problem, rule
 from ..xml.vocabulary_table import is_zero_default, suggest_word
 from .definitions import get_macro_names
 
 _EXPRESSION = re.compile(r"(?<!\$)(?:\$\$)*\$\{([^}]+)\}")
-_TAGS = {
-    **dict.fromkeys(("arg", "attribute", "insert_block", "macro", "property"), "name"),
-    "call": "macro",
-    "if": "value",
-    "include": "filename",
-    "unless": "value",
-}
-"""Tags of xacro, each with an attribute that it requires."""
-
 _NOT_URDF = (*BLOCKS, "xacro:property")
 """Elements whose content is not that of links and joints of URDF, or may be of any of them."""
 
@@ -118,8 +110,8 @@ def _describe_bad_expressions(text: str) -> tuple[str, ...]:
 
 def _find_bad_tag(element: Element, macros: frozenset[str]) -> Iterator[_Typo]:
     name = element.tag.partition(":")[2]
-    word = None if name in macros or name in _TAGS else suggest_word(name, _TAGS)
-    if word is not None and _TAGS[word] in element.attributes:
+    word = None if name in macros or name in TAGS else suggest_word(name, TAGS)
+    if word is not None and TAGS[word] in element.attributes:
         message = (
             f"<{element.tag}> is neither a tag of xacro nor a macro here; write <xacro:{word}>"
         )

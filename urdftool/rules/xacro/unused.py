@@ -8,19 +8,18 @@ from collections.abc import Iterator
 from ...source.comments import remove_comments
 from ...source.description import Description
 from ...source.document import Element
+from ...source.xacro_names import CONDITIONS
 from ..fix import FixContext, Proposal, remove_element, set_attribute, set_text, unsafe
 from ..renaming import find_joint_references, find_link_references
 from ..rule import INFO, UNSAFE, WARNING, Problem, rule
 from .definitions import Definitions, get_definitions, get_names
-
-_CONDITIONS = ("xacro:if", "xacro:unless")
 
 
 def _is_conditional(element: Element) -> bool:
     """Tell whether an element is inside a condition or a macro."""
     parent = element.parent
     while parent is not None:
-        if parent.tag in (*_CONDITIONS, "xacro:macro"):
+        if parent.tag in (*CONDITIONS, "xacro:macro"):
             return True
         parent = parent.parent
     return False

@@ -12,6 +12,7 @@ from ...model.settings import RESISTANCE_OF_URDF
 from ...model.urdf_schema import BLOCKS, DIALECT_ATTRIBUTES, VOCABULARY
 from ...source.description import Description
 from ...source.document import Element
+from ...source.xacro_names import UNPREFIXED
 from ..fix import (
     FixContext,
     Proposal,
@@ -80,8 +81,6 @@ _ATTRIBUTE_REMEDIES = {
 }
 """Remedy for a wrong attribute, by element and name."""
 
-_XACRO = frozenset(("include", "macro", "property", "if", "unless", "insert_block", "arg"))
-"""Tags of xacro, here without their prefix."""
 
 _DOCUMENTATION = frozenset(("name", "id", "comment", "note", "description"))
 """Attributes that document an element; readers lose nothing."""
@@ -129,7 +128,7 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
     yield from _report_unnamed_shapes(robot)
     unknown = get_census(robot).unknown
     in_xacro = bool(unknown) and description.expansion is not None
-    of_xacro = _XACRO | get_macro_names(description) if in_xacro else frozenset()
+    of_xacro = UNPREFIXED | get_macro_names(description) if in_xacro else frozenset()
     other: dict[tuple[str, str], list[Element]] = {}
     file = str(description.packages.file)
     for element in unknown:
