@@ -288,7 +288,7 @@ CHANGES = (
     Planted(
         "contact sensor watches another collision",
         "sensors",
-        say(_in(SENSOR, "bumper") + "//collision", "hull_collision"),
+        say(_in(SENSOR, "bumper") + "//collision", "base_link_hull"),
     ),
     Planted("topic added", "sensors", add(_in(SENSOR, "imu"), "<topic>elsewhere</topic>")),
     Planted("plugin lost", "plugins", drop(POSES)),

@@ -83,7 +83,7 @@ CHANGES = (
     Planted("frame of a force sensor", "wrist_force", say(
         _in(SENSOR, "wrist_force") + "//frame", "parent")),
     Planted("contact sensor of another collision", "bumper", say(
-        _in(SENSOR, "bumper") + "//collision", "hull_collision")),
+        _in(SENSOR, "bumper") + "//collision", "base_link_hull")),
     Planted("plugin lost", POSE_NAMES, drop(POSES)),
     Planted("parameter of a plugin", POSE_NAMES, say(POSES + "/update_frequency", "2")),
     Planted("wheel of a drive", DRIVE_NAMES, say(DRIVE + "/left_joint", "right_wheel_joint")),

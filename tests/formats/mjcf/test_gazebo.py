@@ -11,7 +11,7 @@ from urdftool.refusal import Refused
 
 from .robots import BOX, INERTIAL, export, find, joint, link, robot, rules, tree
 
-SHAPES = f"{INERTIAL}<visual>{BOX}</visual><collision name='c'>{BOX}</collision>"
+SHAPES = f"{INERTIAL}<visual>{BOX}</visual><collision name='a_c'>{BOX}</collision>"
 
 
 def gazebo(inside, reference="a"):
