@@ -1,5 +1,7 @@
 """Kinds of findings that a strict reader judged as noise or wrong, beside those that remain."""
 
+from pathlib import Path
+
 import pytest
 
 from tests.rules.test_judged_after_the_scale import HEAVY, JOINT, LIMIT, MASS, find, shape
@@ -136,3 +138,13 @@ def test_a_sphere_around_a_drone_may_have_a_box_inside(tmp_path, far, count):
     body += shape("collision", "0.1 0.1 0.03")
     text = f'<robot name="r">{LINK.format("drone", HEAVY + body)}</robot>'
     assert len(find(tmp_path, text, "collision-much-larger-than-visual")) == count
+
+
+@pytest.mark.parametrize(("folder", "count"), [("robots", 1), ("test_data", 0)])
+def test_values_of_inputs_of_tests_are_meant(tmp_path, monkeypatch, folder, count):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / folder).mkdir()
+    inside = MASS.format(3, 3, 3) + "</inertial>" + shape("collision", "0.1 0.1 0.1")
+    links = LINK.format("a", HEAVY) + LINK.format("b", inside)
+    text = f'<robot name="r">{links}{JOINT.format("a", "b", "revolute", LIMIT)}</robot>'
+    assert len(find(Path(folder), text, "inertia-exceeds-geometry")) == count

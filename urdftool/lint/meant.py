@@ -1,11 +1,14 @@
-"""Values that are meant: a comment directly above them gives a reason."""
+"""Values that are meant: a comment directly above them gives a reason, or they are for a test."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from pathlib import PurePath
 
-from ..rules.rule import Problem
+from ..diagnostic import Severity
+from ..finding import Finding
+from ..rules.rule import Problem, Rule
 from ..source.document import Element
 
 _COMMENT = re.compile(rb"<!--((?:(?!-->).)*)-->\s*\Z", re.DOTALL)
@@ -41,3 +44,18 @@ def _list_starts(problem: Problem) -> Iterator[tuple[bytes, int]]:
     element = subject if isinstance(subject, Element) else subject.xml
     if isinstance(element, Element):
         yield element.file.data, element.start
+
+
+_OF_TESTS = frozenset(("test", "tests", "test_data", "testdata"))
+"""Names of folders with inputs of tests."""
+
+
+def is_input_of_test(rule: Rule, finding: Finding) -> bool:
+    """Tell whether a remark about motion is about an input of a test, whose values are made for it.
+
+    The path is as the user named it, so that folders above a repository do not count.
+    """
+    if not rule.of_motion or finding.severity is Severity.ERROR:
+        return False
+    path = PurePath(finding.location.path)
+    return not path.is_absolute() and not _OF_TESTS.isdisjoint(path.parts[:-1])

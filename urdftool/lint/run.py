@@ -34,7 +34,7 @@ from .drake_directives import find_welded_links
 from .effect_kinds import find_kinds
 from .imported_readers import find_imported_readers
 from .libraries import TESSERACT
-from .meant import is_explained
+from .meant import is_explained, is_input_of_test
 from .merge import merge, sort_findings
 from .moot import Rejections
 from .motion import (
@@ -362,6 +362,7 @@ def _check_description(
                         or _is_info_off(rule, finding, settings)
                         or is_of_unmoved_robot(rule, finding, robot)
                         or is_of_scenery(rule, finding, robot)
+                        or is_input_of_test(rule, finding)
                         or (finding.severity is not Severity.ERROR and is_explained(problem))
                     )
                     report.minor += bool(is_off)
