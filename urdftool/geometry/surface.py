@@ -30,6 +30,8 @@ class Surface(NamedTuple):
         flat: Number of triangles without area.
         consistent: Whether adjacent triangles have the same winding.
         volume: Signed volume in the file's unit cubed; meaningless for an open surface.
+        thickness: Largest distance of a point from a plane through three of them, relative to the
+            size; 0 for a mesh in a plane.
     """
 
     faces: int
@@ -37,6 +39,7 @@ class Surface(NamedTuple):
     flat: int
     consistent: bool
     volume: float
+    thickness: float
 
     @property
     def inside_out(self) -> bool:
@@ -72,7 +75,25 @@ def measure_surface(vertices: Points, faces: Faces) -> Surface:
     volume = np.einsum("ij,ij->", centered[:, 0], np.cross(centered[:, 1], centered[:, 2])) / 6
     if abs(volume) <= 1e-9 * extent**3:
         volume = 0.0  # two sides of one sheet
-    return Surface(len(merged), edges.open_count, int(sliver.sum()), edges.cycle, float(volume))
+    thickness = _compute_thickness(vertices[np.unique(faces)])
+    flat = int(sliver.sum())
+    return Surface(len(merged), edges.open_count, flat, edges.cycle, float(volume), thickness)
+
+
+def _compute_thickness(points: Points) -> float:
+    """Compute the distance of points, shape (n, 3), from a plane, relative to their size."""
+    arms = points - points[0]
+    lengths = np.linalg.norm(arms, axis=1)
+    size = float(lengths.max())
+    if not size > 0:
+        return 0.0
+    crosses = np.cross(arms[lengths.argmax()], arms)
+    areas = np.linalg.norm(crosses, axis=1)
+    widest = int(areas.argmax())
+    if not areas[widest] > 0:
+        return 0.0
+    normal = crosses[widest] / areas[widest]
+    return float(np.abs(arms @ normal).max()) / size
 
 
 def compute_hull_volume(path: str | Path) -> float | None:

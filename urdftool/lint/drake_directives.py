@@ -32,7 +32,7 @@ class _Model(NamedTuple):
 
 
 def find_welded_links(files: Workspace, path: str) -> frozenset[str]:
-    """Return the links of a description that are welded wherever directives place its model."""
+    """Return the links of a description that are welded in all directives that place its model."""
     project = find_project(files, Path(os.path.abspath(path)).parent)
     if project is None:
         return frozenset()

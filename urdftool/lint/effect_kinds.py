@@ -1,6 +1,6 @@
 """Kinds of effects: what a reader gets of a robot with a defect.
 
-They are data beside the words of each effect, in ``fixtures/effects``; ``python -m tests.effects``
+They are data with the words of each effect, in ``fixtures/effects``; ``python -m tests.effects``
 writes them to ``rules/effect_kinds.json``.
 """
 

@@ -184,7 +184,7 @@ class Rejections:
 
 
 def _find_rejecting_shapes_of_drake(robot: Robot) -> set[str]:
-    """Return the readers that reject shapes such as <drake:ellipsoid>, of which no rule tells."""
+    """Return the readers that reject shapes such as <drake:ellipsoid>, which no rule reports."""
     of_drake = [
         shape
         for _, shape in robot.shapes

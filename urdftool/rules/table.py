@@ -226,6 +226,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
         "file_references": ("missing-mesh-dependency",),
         "surface": (
             "not-watertight",
+            "flat-collision-mesh",
             "inverted-mesh",
             "degenerate-triangles",
             "nonconvex-collision-mesh",

@@ -14,7 +14,7 @@ from ...workspace import Workspace, memoize_by_workspace
 from ..cross_file_references import check_alone
 from ..file_rewrites import TURNED, WITHOUT_COLLAPSED, count_collapsed
 from ..fix import FixContext, Proposal, unsafe
-from ..rule import INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
+from ..rule import ERROR, INFO, UNSAFE, URDF_AND_SDF, WARNING, Problem, rule
 from .changes import find_existing_uses, rewrite_in_place
 from .mesh_uses import MeshUse, get_mesh_uses, is_concave
 
@@ -132,6 +132,40 @@ def not_watertight(
             "not watertight: {}"
         ),
     )
+
+
+_FLAT = 1e-12
+"""Thickness of a mesh, relative to its size, below which MuJoCo 3.3 and 4.0 reject it.
+
+At 1e-8 both load it, at 0 neither does (run).
+"""
+
+
+@rule(
+    WARNING,
+    raised={"mujoco": ERROR},
+    effects={
+        "mujoco": "rejects the robot: it computes a convex hull of each collision mesh",
+        "pybullet": "loads it",
+    },
+    group="robot",
+    formats=URDF_AND_SDF,
+)
+def flat_collision_mesh(robot: Robot, description: Description) -> Iterator[Problem]:
+    """All points of a collision mesh lie in a plane.
+
+    MuJoCo computes a convex hull of each collision mesh and rejects a robot whose mesh has none: a
+    sheet or a single triangle. A visual may be flat. Use a thin box, or a mesh with a thickness.
+    """
+    for use, _, surface in _read_surfaces(robot, description):
+        if surface.thickness > _FLAT:
+            continue
+        yield Problem(
+            use.link,
+            f"collision mesh '{use.uri}' of link '{use.link.name}' lies in a plane; use a thin box",
+            at=use.mesh.locate_attribute("filename"),
+            data={"uri": use.uri},
+        )
 
 
 @rule(
