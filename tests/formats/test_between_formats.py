@@ -329,3 +329,34 @@ def test_negative_damping_is_reported(kind, write, tmp_path):
     )
     assert differing(written) == {}
     assert "lossy-negative-dynamics" in {loss.code for loss in written.losses}
+
+
+@pytest.mark.library("pxr")
+@pytest.mark.parametrize(
+    ("flag", "rows"), [("limit", {"limits"}), ("gravity", {"gravity"}), ("equality", {"tree"})]
+)
+def test_rows_that_a_world_decides_are_not_compared_with_a_stage(flag, rows, write, tmp_path):
+    option = f'<option><flag {flag}="disable"/></option></mujoco>'
+    robot = api.load(write("m.xml", PENDULUM.format(90).replace("</mujoco>", option)))
+    checks = api.export_usd(robot, tmp_path / "m.usda", verify=True).checks
+    assert {c.name for c in checks if "setting of the world" in c.skipped} >= rows
+    assert differing(api.export_mjcf(robot, tmp_path / "out", verify=True)) == {}
+
+
+def test_a_camera_below_a_ball_joint_stays_where_it_is(write, tmp_path):
+    body = f'<body name="a">{BOX}<body name="b"><joint type="ball"/>{BOX}<camera name="c" {{}}/>'
+    source = write("m.xml", mjcf(body.format('pos="0 0 .1"') + "</body></body>"))
+    out = tmp_path / "out"
+    assert differing(api.export_urdf(api.load(source), out, verify=True)) == {}
+    moved = write("n.xml", mjcf(body.format('pos="0 0 .2"') + "</body></body>"))
+    (target,) = out.glob("*.urdf")
+    found = {one.what for one in api.verify(moved, target).list_disagreements()}
+    assert "pose in the link" in found
+
+
+def test_an_inertia_that_is_wrong_by_rounding_is_called_so(write):
+    body = f'<inertial><mass value="1"/><inertia ixx="0.1" iyy="0.2" izz="{0.3 + 1e-8}" ixy="0" '
+    body += 'ixz="0" iyz="0"/></inertial>'
+    text = PLANAR.replace('"b"/><joint', f'"b">{body}</link><joint').replace("planar", "fixed")
+    losses = api.export_mjcf(api.load(write("p.urdf", text))).losses
+    assert any("only by rounding" in loss.message for loss in losses)

@@ -31,6 +31,7 @@ from .mesh_measure import MeshMeasures
 from .names import NameMap
 from .pair import add_presence
 from .rows import GLOBAL_ROWS, ROWS, Row
+from .worlds import record_decided
 
 Extent = Literal["part", "body", "below", "robot"]
 """Parts whose difference a loss explains.
@@ -132,10 +133,13 @@ def prove(
     rows: Sequence[Row] = ROWS,
     meshes: MeshMeasures | None = None,
     has_frames: bool = False,
+    described: Robot | None = None,
 ) -> list[Check]:
     """Compare an export, which was read back, with its source.
 
     With ``has_frames``, each link of the source must be a link or a frame of the result.
+    ``described`` is the robot as its file describes it, if the source has another format; its world
+    decides which rows say nothing of the result.
 
     Returns:
         A row for each property, also for those that could not be compared, and one for what the
@@ -148,6 +152,8 @@ def prove(
         comparison = compare_robots(one, two, rows=rows, names=claims.names, meshes=meshes)
     except ModelError as error:
         return [Check("tree", "links and joints", 0.0, differing=[error.message])]
+    if described is not None:
+        record_decided(described, two, comparison)
     if has_frames:
         _add_missing_links(one, two, comparison, claims)
     _compare_pose(source, result, claims.names, comparison)

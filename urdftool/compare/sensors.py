@@ -20,7 +20,7 @@ from ..model.numbers import describe_content
 from ..model.sensors import KINDS, MAX_RAYS, get_kind, get_sensor_row
 from ..model.settings import Settings, Value, get_number
 from .difference import EXISTENCE, Comparison, Difference
-from .frames import describe_motion, describe_pose, measure_largest
+from .frames import describe_motion, describe_pose, invert, measure_largest
 from .origins import find_least_offset
 from .pair import Match, Pair, add_presence, locate
 from .settings import measure_content
@@ -196,6 +196,15 @@ def _get_match(pair: Pair, x: _Sensor, y: _Sensor) -> Match | None:
     return Match(pair.a.by_name[one], pair.b.by_name[two], frame) if other == two else None
 
 
+def _has_same_link(pair: Pair, x: _Sensor, y: _Sensor) -> bool:
+    """Tell whether two sensors are in one link, whose bodies correspond to none.
+
+    Its joint has another type in the second robot, for example.
+    """
+    is_alone = pair.a.body_of.get(x.link) not in pair.frames
+    return is_alone and pair.links.get(x.link, x.link) == y.link
+
+
 def _compare(
     pair: Pair, one: _Sensor, two: _Sensor, comparison: Comparison, *, plain: bool
 ) -> None:
@@ -220,9 +229,13 @@ def _compare(
         )
 
     match = _get_match(pair, one, two)
-    if match is None:
+    if match is None and not _has_same_link(pair, one, two):
         add("link", (one.link, two.link), math.inf)
-    elif one.pose is not None and two.pose is not None:
+    elif match is None and one.pose is not None and two.pose is not None:
+        size = measure_largest(invert(one.pose) @ two.pose)
+        values = describe_pose(one.pose), describe_pose(two.pose)
+        add("pose in the link", values, size if size > _PLACES else 0.0, unit="m, rad")
+    elif match is not None and one.pose is not None and two.pose is not None:
         poses = match.one.members[one.link] @ one.pose, match.two.members[two.link] @ two.pose
         offset = find_least_offset(pair, match, *poses)
         size = measure_largest(offset)

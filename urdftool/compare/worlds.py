@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from ..model.elements import Robot
 from ..model.native import find_world
 from ..model.settings import Content, Setting
@@ -23,7 +25,7 @@ def compare_worlds(pair: Pair, comparison: Comparison) -> None:
     compare_settings(pair, comparison, "world", "robot", names, rows, settings, robots)
     compared = {row.name for row in rows}
     for robot, other in (robots, robots[::-1]):
-        _record_decided(robot, other, compared, comparison)
+        record_decided(robot, other, comparison, compared)
 
 
 def _choose_world_rows(a: Robot, b: Robot) -> tuple[list[Setting], str]:
@@ -51,10 +53,13 @@ def _has_gravity_of_earth(robot: Robot) -> bool:
     return value is None or measure_content(value.content, (0.0, 0.0, -9.8)) <= _OF_EARTH
 
 
-def _record_decided(robot: Robot, other: Robot, compared: set[str], comparison: Comparison) -> None:
+def record_decided(
+    robot: Robot, other: Robot, comparison: Comparison, compared: Collection[str] = ()
+) -> None:
     """Record the rows that a setting of the world decides and that is not that of the other robot.
 
     Rows compare what is written of a robot; a simulator does something else with it in this world.
+    ``compared`` are the names of the settings that both robots have.
     """
     for row, value in list_changed(robot):
         content: Content = value.content

@@ -157,6 +157,7 @@ class Compiled:
         self.mujoco.set_mju_user_warning(self._warn)
         self.written_options = self._collect_options(self.model)
         self.model.opt.gravity = GRAVITY
+        self.model.opt.disableflags &= ~int(self.mujoco.mjtDisableBit.mjDSBL_GRAVITY)
         self.data = self.mujoco.MjData(self.model)
         self.root = max(self.get_body(root), 0)
 

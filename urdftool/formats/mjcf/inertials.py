@@ -178,10 +178,13 @@ def _repair(
         group[name] = read.get_changed(tensor)
         what = f"{how} to {format_moments_text(tensor)} kg·m²"
     held = "; it is fixed to the world and does not move" if static else ""
+    text = f"physically inconsistent (principal moments {before} kg·m²): {what}"
+    if is_rounded:
+        text = "inconsistent only by rounding (the largest moment exceeds the sum of the others by "
+        text += f"{excess['excess']:.2g} of itself); the nearest consistent one is written"
     written.report_loss(
         "inertia",
-        f"inertia of link '{name}' is physically inconsistent (principal moments {before} kg·m²): "
-        f"{what}{held}",
+        f"inertia of link '{name}' is {text}{held}",
         read.place,
         kind="link",
         name=name,

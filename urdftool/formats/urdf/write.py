@@ -58,7 +58,7 @@ def write(robot: Robot, options: Options | None = None) -> Written:
     options = options or Options()
     stem = replace_file_name(robot.name or "robot")
     written = Written(options.file or f"{shorten_file_name(stem)}.urdf")
-    robot = source = _stand_on_world(_take_tree(robot, options.root, written), written)
+    robot = source = _put_on_world(_take_tree(robot, options.root, written), written)
     left = drop_invalid_parts(robot)
     converted = {joint.name for joint in robot.joints if joint.type in (*BALL_TYPES, "screw")}
     found = [
@@ -300,7 +300,7 @@ _LEVEL = 1e-9
 """Sine of the angle of a base that is not tilted; chosen, above rounding errors."""
 
 
-def _stand_on_world(robot: Robot, written: Written) -> Robot:
+def _put_on_world(robot: Robot, written: Written) -> Robot:
     """Return a robot whose tilted fixed base is on a link ``world``; other poses are reported.
 
     URDF has no pose of the robot, and gravity acts along the z axis of its root.

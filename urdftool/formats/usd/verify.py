@@ -60,7 +60,8 @@ def verify_copy(
         reading = read(path, file=read_file(path), mesh_folder=Path(folder) / "meshes")
         losses = list(name_links(expected, written.losses))
         claims = Claims(losses, written.renamed, EXCUSES, reading.losses, UNSEEN)
-        checks = prove(expected, reading.robot, claims, rows=choose_rows())
+        rows, described = choose_rows(), None if source.format == "usd" else source
+        checks = prove(expected, reading.robot, claims, rows=rows, described=described)
         announce_additions(checks, source, written.planned)
         checks.append(compare_home(path, expected, written.planned.configurations[0].positions))
         collides = read_self_collision(path)
