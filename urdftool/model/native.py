@@ -57,6 +57,12 @@ _OF_AXIS = (
 )  # fmt: skip
 """Paths of what the robot has as values below each axis of a joint."""
 
+OF_SECOND_AXIS = tuple(f"axis2/{path}" for path in _OF_AXIS)
+"""Paths of what the robot has as values of a joint of ``TWO_AXES``."""
+
+TWO_AXES = ("universal", "revolute2")
+"""Types of joints of SDF that turn about ``<axis>`` and ``<axis2>``."""
+
 HELD_PATHS = {
     "collision": ("geometry", "pose", *_list_paths(SURFACE)),
     "visual": (
@@ -65,7 +71,7 @@ HELD_PATHS = {
     ),
     "joint": (
         *("parent", "child", "pose", "sensor", "plugin"),
-        *(f"{axis}/{path}" for axis in ("axis", "axis2") for path in _OF_AXIS),
+        *(f"axis/{path}" for path in _OF_AXIS),
         *(path for path in _list_paths(OF_JOINTS) if not path.startswith("axis/")),
     ),
     "loop": ("parent", "child", "pose", "axis/xyz", "sensor", "plugin"),
@@ -116,8 +122,11 @@ def make_rest(
     """
     made = NativeElement(provenance, section, kind)
     for element in elements:
+        held = HELD_PATHS[kind]
+        if kind == "joint" and element.get("type") in TWO_AXES:
+            held = (*held, *OF_SECOND_AXIS)
         for part in element.children if element.tag == kind else (element,):
-            kept = _leave_out_held(section, kind, part, part.tag)
+            kept = _leave_out_held(section, held, part, part.tag)
             _merge(made, () if kept is None else (kept,))
     return made if made.children else None
 
@@ -138,7 +147,9 @@ def make_world(element: Element) -> NativeElement:
     It has no name, since a robot may be in worlds of any name.
     """
     made = NativeElement(Written(element.place, element), AROUND, AROUND)
-    kept = (_leave_out_held(AROUND, AROUND, child, child.tag) for child in element.children)
+    kept = (
+        _leave_out_held(AROUND, HELD_PATHS[AROUND], child, child.tag) for child in element.children
+    )
     made.children = [child for child in kept if child is not None]
     made.held = frozenset()  # a file without a world can hold the same robot
     return made
@@ -149,14 +160,16 @@ def find_world(robot: Robot) -> NativeElement | None:
     return next((element for element in robot.native if element.tag == AROUND), None)
 
 
-def _leave_out_held(section: str, kind: str, element: Element, path: str) -> NativeElement | None:
-    """Return an element without what the robot holds; None if nothing is left."""
-    if any(f"{path}/".startswith(f"{held}/") for held in HELD_PATHS[kind]):
+def _leave_out_held(
+    section: str, held: Sequence[str], element: Element, path: str
+) -> NativeElement | None:
+    """Return an element without what the robot holds, by paths; None if nothing is left."""
+    if any(f"{path}/".startswith(f"{one}/") for one in held):
         return None
     made = _copy(section, element)
     if element.children:
         below = [
-            _leave_out_held(section, kind, child, f"{path}/{child.tag}")
+            _leave_out_held(section, held, child, f"{path}/{child.tag}")
             for child in element.children
         ]
         made.children = [one for one in below if one is not None]

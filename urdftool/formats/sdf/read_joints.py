@@ -13,6 +13,7 @@ from ...errors import ModelError
 from ...model.blocks import add_parts
 from ...model.elements import Axis, Dynamics, Joint, Limit, Link, Mimic, Robot, Vector
 from ...model.mechanism import Closure, Frame
+from ...model.native import TWO_AXES
 from ...model.pose import IDENTITY, Pose, get_origin_at, rotate
 from ...model.provenance import Written
 from ...model.read_settings import read_sdf_settings
@@ -144,7 +145,7 @@ def add_joint(context: Context, found: Found) -> None:
     )
     joint.settings = _read_settings(context, found, "axis")
     turn = Pose(context.poses[found.child].invert().rotation)
-    if found.type in ("universal", "revolute2"):
+    if found.type in TWO_AXES:
         middle = f"{found.child}~1"
         robot.links.append(Link(written, middle, is_virtual=True))
         second = replace(
@@ -171,8 +172,7 @@ def get_link_pose(context: Context, link: str) -> Pose:
 
 
 def _read_type(found: Found) -> str:
-    turning = ("universal", "revolute2", "gearbox")
-    return "revolute" if found.type in turning else found.type
+    return "revolute" if found.type in (*TWO_AXES, "gearbox") else found.type
 
 
 def _read_settings(context: Context, found: Found, axis: str) -> Settings:

@@ -6,7 +6,15 @@ from collections.abc import Container, Iterator, Mapping
 
 from ...diagnostic import Severity
 from ...model.mechanism import NativeElement
-from ...model.native import HELD_PATHS, NESTED, OTHER_TAGS, make_loop, make_native, make_rest
+from ...model.native import (
+    HELD_PATHS,
+    NESTED,
+    OF_SECOND_AXIS,
+    OTHER_TAGS,
+    make_loop,
+    make_native,
+    make_rest,
+)
 from ...model.pose import Pose, make_pose
 from ...model.provenance import Written
 from ...model.settings import OF_LINKS, OF_ROBOT
@@ -28,7 +36,7 @@ _READ = {
     "model": ("link", "joint", "frame", *NESTED, "pose", "plugin", "gripper",
               *(row.path for row in OF_ROBOT)),
     "link": (*_COPIED, "inertial", "collision", "visual", "pose", *(row.path for row in OF_LINKS)),
-    "joint": HELD_PATHS["joint"],
+    "joint": (*HELD_PATHS["joint"], *OF_SECOND_AXIS),
     "inertial": ("mass", "pose", "inertia", "fluid_added_mass"),
     "collision": HELD_PATHS["collision"],
     "visual": (*HELD_PATHS["visual"], "material/pbr"),
