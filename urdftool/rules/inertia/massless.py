@@ -40,8 +40,8 @@ def is_only_kinematic(robot: Robot) -> bool:
 def report_massless(robot: Robot, targets: frozenset[str]) -> Problem:
     """Report a robot of which no link has an inertial.
 
-    It is off by default without collisions, and where nothing is for ROS: such robots of Python
-    projects serve kinematics, as readers of 12 of them found.
+    It is off by default where nothing is for ROS: such robots of Python projects serve kinematics,
+    as readers of 12 of them found.
     """
     solid = any(link.collisions for link in robot.links)
     return Problem(
@@ -55,7 +55,9 @@ def report_massless(robot: Robot, targets: frozenset[str]) -> Problem:
             *_select_mujoco_effect(robot),
         ),
         alike="robot",
-        pedantic=is_massless_scene(robot) or not solid or targets.isdisjoint(ROS),
+        pedantic=is_massless_scene(robot)
+        or (len(robot.links) == 1 and not solid)
+        or targets.isdisjoint(ROS),
     )
 
 
