@@ -372,6 +372,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "missing-virtual-joint",
             "end-effector-group",
         ),
+        "parts": ("srdf-unknown-group", "srdf-part-not-read", "group-state-not-taken"),
         "configuration": (
             "moveit-parameter-type",
             "moveit-controller-incomplete",
@@ -623,6 +624,7 @@ FIXES: dict[str, FixTraits] = {
     "srdf-robot-name": FixTraits(SAFE),
     "group-state-out-of-bounds": FixTraits(UNSAFE),
     "missing-virtual-joint": FixTraits(UNSAFE),
+    "srdf-unknown-group": FixTraits(UNSAFE),
     "moveit-parameter-type": FixTraits(SAFE),
     "moveit-controller-incomplete": FixTraits(UNSAFE),
     "adjacent-pair-not-disabled": FixTraits(UNSAFE),

@@ -1,4 +1,4 @@
 """Rules on MoveIt files next to a description."""
 
-FILES = ("semantic", "configuration", "consistency", "adjacent", "pairs")
+FILES = ("semantic", "parts", "configuration", "consistency", "adjacent", "pairs")
 """Files with rules, in reading order."""

@@ -149,6 +149,7 @@ def find_references(root: Element, kind: str) -> Iterator[tuple[Element, str, bo
         "virtual_joint": ("child_link",),
         "disable_collisions": ("link1", "link2"),
         "enable_collisions": ("link1", "link2"),
+        "disable_default_collisions": ("link",),
         "link_sphere_approximation": ("link",),
     }
     for element in root.walk():
@@ -158,6 +159,8 @@ def find_references(root: Element, kind: str) -> Iterator[tuple[Element, str, bo
                 yield element, name, "collisions" not in element.tag
             if element.tag == "link" and inside == "group":
                 yield element, "name", True
+        elif element.tag == "joint_property":
+            yield element, "joint_name", True
         elif element.tag in ("joint", "passive_joint") and inside in (
             "group",
             "group_state",

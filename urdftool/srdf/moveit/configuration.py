@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 from ...model.elements import Joint, Robot
 from ...model.semantic import Group, SemanticDescription
+from ...model.semantic_groups import list_joints_of_group
 from ..body_tree import BodyTree
-from ..chains import measure_chain
 from .distributions import Distribution
 
 
@@ -65,26 +64,9 @@ class Configuration:
 
     def list_group_joints(self, group: Group) -> list[Joint]:
         """List the active joints of a group, as MoveIt does: of its links, joints and chains."""
-        names = set(self._list_names(group, set()))
+        names = list_joints_of_group(self.semantic, group.name, self.robot)
         passive = {joint.name for joint in self.semantic.passive_joints}
         return [one for one in self.active_joints if one.name in names and one.name not in passive]
-
-    def _list_names(self, group: Group, seen: set[str]) -> Iterator[str]:
-        if group.name in seen:
-            return
-        seen.add(group.name)
-        yield from group.joints
-        for link in group.links:
-            joint = self.robot.tree.get_parent_joint(link)
-            if joint is not None:
-                yield joint.name
-        for chain in group.chains:
-            if chain.base in self.robot.link and chain.tip in self.robot.link:
-                found = measure_chain(self.tree, chain.base, chain.tip)
-                yield from (joint.name for joint in (found.joints if found is not None else ()))
-        for name in group.groups:
-            if name in self.groups:
-                yield from self._list_names(self.groups[name], seen)
 
     def is_gripper(self, group: Group) -> bool:
         """Tell whether a group is that of an end effector."""
