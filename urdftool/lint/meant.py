@@ -51,11 +51,13 @@ _OF_TESTS = frozenset(("test", "tests", "test_data", "testdata"))
 
 
 def is_input_of_test(rule: Rule, finding: Finding) -> bool:
-    """Tell whether a remark about motion is about an input of a test, whose values are made for it.
+    """Tell whether a remark is about values of an input of a test, which are made for it.
 
     The path is as the user named it, so that folders above a repository do not count.
     """
-    if not rule.of_motion or finding.severity is Severity.ERROR:
+    if finding.severity is Severity.ERROR:
+        return False
+    if not rule.of_motion and rule.family not in ("inertia", "joint", "collision"):
         return False
     path = PurePath(finding.location.path)
     return not path.is_absolute() and not _OF_TESTS.isdisjoint(path.parts[:-1])

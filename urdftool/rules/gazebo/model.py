@@ -275,13 +275,15 @@ def _has_gazebo_part(description: Description) -> bool:
         "gz, gazebo-classic": "load the robot as a free body",
     },
     infos=True,
+    pedantic="robots without a plugin, which nothing moves in Gazebo",
 )
 def root_not_anchored(robot: Robot) -> Iterator[Problem]:
     """A robot without wheels and legs is not fixed to the world.
 
     Gazebo loads the root of a robot as a free body, so an arm without wheels or legs falls over
     when it moves. Add a link named ``world`` and a fixed joint. A robot with root
-    ``base_footprint``, or with a wheel, caster or leg by name, is mobile and not reported.
+    ``base_footprint``, or with a wheel, caster or leg by name, is mobile and not reported. A robot
+    without a plugin is off by default.
     """
     root = robot.tree.root
     if root is None or root.name == "world" or is_set(robot.settings, "static"):
@@ -293,6 +295,7 @@ def root_not_anchored(robot: Robot) -> Iterator[Problem]:
             "world, so its base moves freely; add a link 'world' and a fixed joint",
             at=root,
             data={"link": root.name},
+            pedantic=not any(element.tag == "plugin" for element in robot.element.walk()),
         )
 
 
