@@ -69,35 +69,40 @@ def gravity_off_everywhere(robot: Robot) -> Iterator[Problem]:
 
 @rule(
     ERROR,
-    on=GAZEBO,
+    on=(*GAZEBO, "mujoco"),
     effects={
         "gz, gazebo-classic": (
             "reject the model (Error 3: reserved), unless the link is merged into another "
             "(sdformat 12.3)"
         ),
+        "mujoco (world)": "rejects the robot: it takes the link for its world",
     },
 )
-def reserved_name(robot: Robot) -> Iterator[Problem]:
+def reserved_name(robot: Robot, targets: frozenset[str]) -> Iterator[Problem]:
     """A robot, link or joint has a name that SDF reserves.
 
-    ``world`` is the fixed world and may only be the root. Names with two underscores at both ends,
-    such as ``__model__``, are reserved. Gazebo rejects the model.
+    ``world`` is the fixed world and may only be the root: Gazebo rejects the robot, and so does
+    MuJoCo if a joint moves the link. Names with two underscores at both ends, such as
+    ``__model__``, are reserved in SDF only.
     """
     parts: list[Robot | Link | Joint] = [robot, *robot.links, *robot.joints]
     for part in parts:
         name = part.name
-        if len(name) > 4 and name.startswith("__") and name.endswith("__"):
+        is_framed = len(name) > 4 and name.startswith("__") and name.endswith("__")
+        if is_framed and not targets.isdisjoint(GAZEBO):
             yield Problem(
                 part,
                 f"name '{name}' is reserved in SDF; remove the underscores",
                 at=part.locate_attribute("name"),
             )
-    if "world" in robot.link and robot.tree.get_parent_joint("world") is not None:
+    joint = robot.tree.get_parent_joint("world") if "world" in robot.link else None
+    if joint is not None and not (joint.is_fixed and targets.isdisjoint(GAZEBO)):
         link = robot.link["world"]
         yield Problem(
             link,
             "link 'world' is not the root, but the name is reserved for the fixed world; rename it",
             at=link.locate_attribute("name"),
+            effects=("gz, gazebo-classic", *["mujoco (world)"] * (not joint.is_fixed)),
         )
 
 

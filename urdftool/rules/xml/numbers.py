@@ -149,6 +149,7 @@ _NOT_A_NUMBER = {
     "mujoco, pybullet, drake (a blank behind it)": "read it as intended",
     "mujoco (not in a visual, unreadable)": "rejects the file",
     "mujoco (in a visual, unreadable)": _OF_MUJOCO["mujoco (in a visual)"],
+    "mujoco, pybullet (hexadecimal)": "read it: 0x10 is 16",
     "pybullet (unreadable)": "reads the leading number: 0,1 is 0 and -1rad is -1",
     "pybullet (nothing written)": "takes 0",
     "drake (no use to Drake)": "rejects the file",
@@ -272,6 +273,8 @@ def _get_text_condition(text: str) -> str:
     """Get the condition of effects that applies to a number's text."""
     if not text.strip():
         return "nothing written"
+    if _HEXADECIMAL.fullmatch(text.strip()):
+        return "hexadecimal"
     try:
         finite = math.isfinite(float(text))
     except ValueError:
@@ -281,6 +284,7 @@ def _get_text_condition(text: str) -> str:
     return "a blank behind it" if finite else "not finite"
 
 
+_HEXADECIMAL = re.compile(r"[-+]?0[xX][0-9a-fA-F]+")
 _UNIT = re.compile(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*[^\W\d_]+[²³]?")
 
 
