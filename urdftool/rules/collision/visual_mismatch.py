@@ -210,6 +210,7 @@ def collision_mesh_too_dense(
     effects={
         "gz, gazebo-classic, mujoco, pybullet": "use the collision geometry as written",
     },
+    caused_by=("mesh-scale-differs",),
     formats=ANY_FORMAT,
     pedantic="less than 3.5 times as long, unless a radius is a diameter",
 )
