@@ -211,3 +211,60 @@ def test_controller_without_configuration(lint):
         "MoveIt controller 'arm_controler' is not in ros2_controllers.yaml; "
         "did you mean 'arm_controller'?"
     )
+
+
+ROS2 = """controller_manager:
+  ros__parameters:
+    arm_controller: {{type: {kind}}}
+arm_controller:
+  ros__parameters:
+    joints: [{joints}]
+    {more}
+"""
+TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
+
+
+@pytest.mark.parametrize(
+    ("mine", "its", "more", "words"),
+    [
+        ("elbow", "elbow", "", None),
+        ("elbow", "elbow, wrist", "", "does not send wrist"),
+        ("elbow", "elbow, wrist", "allow_partial_joints_goal: true", None),
+        ("elbow, wrist", "elbow", "", "sends wrist"),
+        ("elbow, wrist", "elbow", "allow_partial_joints_goal: true", "sends wrist"),
+        ("elbow", "$(var prefix)elbow", "", None),
+    ],
+)
+def test_joints_of_both_controllers_are_the_same(lint, mine, its, more, words):
+    section = WHOLE.replace("[elbow]", f"[{mine}]")
+    found = lint(
+        "moveit-controller-mismatch",
+        moveit_controllers=MANAGER.format(names="arm_controller", rest=section).replace(
+            "arm_controller:\n    {", "arm_controller: {"
+        ),
+        ros2_controllers=ROS2.format(kind=TRAJECTORY, joints=its, more=more),
+    )
+    assert len(found) == (words is not None)
+    assert all(words in message for message in found)
+
+
+@pytest.mark.parametrize(
+    ("kind", "action", "right"),
+    [
+        (TRAJECTORY, "follow_joint_trajectory", None),
+        (TRAJECTORY, "/follow_joint_trajectory", None),
+        (TRAJECTORY, "follow_joint_traj", "write follow_joint_trajectory"),
+        ("vendor_controllers/OwnController", "own_action", None),
+    ],
+)
+def test_the_action_is_that_of_the_class(lint, kind, action, right):
+    section = WHOLE.replace("follow_joint_trajectory", action)
+    found = lint(
+        "moveit-controller-mismatch",
+        moveit_controllers=MANAGER.format(names="arm_controller", rest=section).replace(
+            "arm_controller:\n    {", "arm_controller: {"
+        ),
+        ros2_controllers=ROS2.format(kind=kind, joints="elbow", more=""),
+    )
+    assert len(found) == (right is not None)
+    assert all(right in message for message in found)

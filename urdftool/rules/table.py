@@ -379,7 +379,11 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "moveit-controller-unknown-joint",
             "missing-acceleration-limits",
         ),
-        "consistency": ("moveit-unknown-name", "moveit-controller-mismatch"),
+        "consistency": (
+            "moveit-unknown-name",
+            "moveit-controller-mismatch",
+            "group-partly-controlled",
+        ),
         "adjacent": ("adjacent-pair-not-disabled",),
         "pairs": ("disabled-pair-can-touch", "adjacent-through-bare-link", "pair-never-touches"),
     },

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.controllers import list_controllers
+from ...model.controllers import Controller, list_controllers
 from ...model.elements import Robot
-from ...model.moveit_parameters import get_action_type
+from ...model.moveit_parameters import ACTIONS, get_action_type
+from ...model.semantic import read_semantic
+from ...model.semantic_groups import list_joints_of_group
 from ...source.description import Description
 from ...source.yaml_tree import Node
 from ..rule import ERROR, WARNING, Problem, rule
-from ..words import find_nearest, suggest_name
+from ..words import find_nearest, join_some, suggest_name
 from .configuration import find_managers, read_next_to_srdf
 from .semantic import get_srdf_documents
 
 _ON = ("moveit",)
+_TRAJECTORY = "FollowJointTrajectory"
 
 
 @rule(WARNING, on=_ON, effects={"moveit": "ignores the parameters"})
@@ -58,26 +61,31 @@ def _find_unknown(
         )
 
 
+_OTHER_JOINTS = "joint_trajectory_controller (other joints)"
+
+
 @rule(
     ERROR,
     on=_ON,
     effects={
-        "moveit": "finds no action server of the controller, and does not execute its trajectories"
+        "moveit": "finds no action server of the controller, and does not execute its trajectories",
+        _OTHER_JOINTS: "rejects the trajectories of MoveIt",
     },
 )
 def moveit_controller_mismatch(robot: Robot, description: Description) -> Iterator[Problem]:
-    """A controller of MoveIt is not configured for ros2_control, or offers another action.
+    """A controller of MoveIt differs from that of ros2_control in its name, action or joints.
 
-    ``moveit_controllers.yaml`` names the controllers of ``ros2_controllers.yaml`` and the type of
-    their action. ``spawn_controllers.launch.py`` starts them by these names. A
+    ``moveit_controllers.yaml`` names the controllers of ``ros2_controllers.yaml``, with the type
+    and name of their action. ``spawn_controllers.launch.py`` starts them by these names. A
     ``parallel_gripper_action_controller`` offers ``ParallelGripperCommand``; other gripper
-    controllers offer ``GripperCommand``. Nothing is reported if there is no
-    ``ros2_controllers.yaml`` next to the SRDF.
+    controllers offer ``GripperCommand``. A ``JointTrajectoryController`` requires all of its joints
+    in a trajectory, unless ``allow_partial_joints_goal`` is true, and no others. Nothing is
+    reported if there is no ``ros2_controllers.yaml`` next to the SRDF.
     """
     root = read_next_to_srdf(robot, description, "ros2_controllers.yaml")
     if root is None:
         return
-    known = {one.name: one.type.text or "" for one in list_controllers(root)}
+    known = {one.name: one for one in list_controllers(root)}
     for manager in find_managers(robot, description):
         fields = manager.fields or {}
         listed = fields.get("controller_names")
@@ -93,15 +101,116 @@ def moveit_controller_mismatch(robot: Robot, description: Description) -> Iterat
                     at=node.place,
                 )
             elif (section := fields.get(name)) is not None:
-                yield from _compare_types(robot, name, section, known[name])
+                yield from _compare_actions(robot, name, section, known[name])
+                yield from _compare_joints(robot, name, section, known[name])
 
 
-def _compare_types(robot: Robot, name: str, section: Node, kind: str) -> Iterator[Problem]:
-    node, offered = (section.fields or {}).get("type"), get_action_type(kind)
-    if node is not None and offered and node.text != offered:
+def _compare_actions(
+    robot: Robot, name: str, section: Node, controller: Controller
+) -> Iterator[Problem]:
+    kind = controller.type.text or ""
+    offered = get_action_type(kind)
+    for key, right in (("type", offered), ("action_ns", ACTIONS.get(offered, ""))):
+        node = (section.fields or {}).get(key)
+        text = "" if node is None else (node.text or "").strip("/")
+        if node is not None and right and text != right and "$" not in text:
+            yield Problem(
+                robot,
+                f"MoveIt controller '{name}' has {key} '{node.text}', but its class {kind} offers "
+                f"{right}; write {right}",
+                at=node.place,
+            )
+            return
+
+
+def _compare_joints(
+    robot: Robot, name: str, section: Node, controller: Controller
+) -> Iterator[Problem]:
+    """Compare the joints of a trajectory controller, whose names may not be computed."""
+    node = (section.fields or {}).get("joints")
+    mine = {one.text or "" for one in (node.items if node is not None else None) or []}
+    its = {one.text or "" for one in controller.list_scalars("joints")}
+    if node is None or not mine or not its or any("$" in one for one in mine | its):
+        return
+    if get_action_type(controller.type.text or "") != _TRAJECTORY:
+        return
+    lacking, more = sorted(its - mine), sorted(mine - its)
+    takes_part = controller.parameters.find("allow_partial_joints_goal")
+    if takes_part is not None and takes_part.text in ("true", "True"):
+        lacking = []
+    if lacking:
+        it = f"does not send {join_some(lacking, 'joints', 3)}, which ros2_controllers.yaml has"
+    else:
+        it = f"sends {join_some(more, 'joints', 3)}, which ros2_controllers.yaml does not have"
+    if lacking or more:
         yield Problem(
             robot,
-            f"MoveIt controller '{name}' has type '{node.text}', but its class {kind} offers "
-            f"{offered}; write {offered}",
+            f"MoveIt controller '{name}' {it}; write the same joints in both",
             at=node.place,
+            effects=(_OTHER_JOINTS,),
         )
+
+
+@rule(
+    WARNING,
+    on=_ON,
+    effects={
+        "moveit": "plans for the group, but identifies no set of controllers that can actuate it",
+    },
+)
+def group_partly_controlled(robot: Robot, description: Description) -> Iterator[Problem]:
+    """The controllers of MoveIt have only some of the joints of a group.
+
+    MoveIt executes a trajectory only if its controllers together have all joints of the group;
+    passive and mimic joints do not count. Nothing is reported of a group without any controller, of
+    a group of groups, and of joints that are another group.
+    """
+    documents = get_srdf_documents(robot, description)
+    root = read_next_to_srdf(robot, description, "ros2_controllers.yaml")
+    compared = {
+        one.name: {node.text or "" for node in one.list_scalars("joints")}
+        for one in (() if root is None else list_controllers(root))
+    }
+    for manager in find_managers(robot, description):
+        lists = {
+            name: node
+            for name, section in (manager.fields or {}).items()
+            if (node := (section.fields or {}).get("joints")) is not None
+        }
+        controlled = {one.text or "" for node in lists.values() for one in node.items or []}
+        # moveit-controller-mismatch reports what these lack
+        controlled |= set().union(*(compared.get(name, set()) for name in lists))
+        if not controlled or not controlled <= robot.joint.keys():
+            continue  # moveit-controller-unknown-joint
+        for document in documents:
+            content = read_semantic(document.root)
+            passive = {joint.name for joint in content.passive_joints}
+            of_group = {
+                group.name: {
+                    name
+                    for name in list_joints_of_group(content, group.name, robot)
+                    if name in robot.joint
+                    and name not in passive
+                    and robot.joint[name].has_axis
+                    and robot.joint[name].mimic is None
+                }
+                for group in content.groups
+            }
+            for group in content.groups:
+                joints = of_group[group.name]
+                lacking = joints - controlled
+                if not lacking or lacking == joints or group.groups:
+                    continue
+                if any(other and other <= lacking for other in of_group.values()):
+                    continue
+                nearest = max(lists.values(), key=lambda node: _count_joints(node, joints))
+                yield Problem(
+                    robot,
+                    f"no controller of MoveIt has {join_some(sorted(lacking), 'joints', 3)} of "
+                    f"group '{group.name}'; write it in its controller, or mark it as passive",
+                    at=nearest.place,
+                )
+
+
+def _count_joints(node: Node, joints: set[str]) -> int:
+    return sum(one.text in joints for one in node.items or [])
