@@ -185,3 +185,14 @@ def test_two_actuators_of_one_joint_are_announced(write, urdftool, tmp_path):
     assert result.code == 0
     assert "act together, but ros2_control has them as modes of one joint" in result.err
     assert "actuators: announced: joint 's': actuator is missing" in result.out
+
+
+def test_what_is_not_of_urdf_in_a_joint_is_reported(write, tmp_path):
+    joint = '<joint name="j" type="continuous"><parent link="a"/><child link="b"/><axis xyz="1 0 0"'
+    joint += ' speed="2"/><drive power="3"/></joint>'
+    text = f'<robot name="r"><link name="a"/><link name="b"/>{joint}</robot>'
+    written = api.export_urdf(api.load(write("r.urdf", text)), tmp_path / "out", verify=True)
+    found = [loss.message for loss in written.losses if loss.code == "lossy-addition"]
+    assert found == ["speed of <axis> of joint 'j' is dropped", "<drive> of joint 'j' is dropped"]
+    (row,) = (check for check in written.checks if check.name == "simulator data")
+    assert row.verdict == "announced"

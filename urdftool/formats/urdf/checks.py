@@ -31,6 +31,7 @@ _EXCUSES = (
     Excuse(("sensors",), frozenset(("lossy-sensor",))),
     Excuse(("sensors",), frozenset(("lossy-optical-frame",)), properties=("frame",)),
     Excuse(("actuators",), frozenset(("lossy-actuator",))),
+    Excuse(("simulator data",), frozenset(("lossy-addition",))),
     Excuse(
         ("simulator data",), frozenset(("lossy-other-element",)), "robot", properties=(EXISTENCE,)
     ),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import PurePath
 
@@ -20,7 +21,9 @@ from ...model.numbers import number_text
 from ...model.pose import IDENTITY, make_pose
 from ...model.selection import list_below, measure_tree, select_links
 from ...model.settings import MAGNITUDES, RESISTANCE_OF_URDF
+from ...model.urdf_schema import VOCABULARY
 from ...model.world import WORLD
+from ...source.document import Element
 from ..common.directory import mark
 from ..common.force_fallbacks import (
     FATAL,
@@ -255,6 +258,7 @@ def _report_unexpressed(t: Translation) -> None:
     else:
         copied = {element.tag for element in robot.xml.children} - {"mujoco"}
         report_other_elements(robot, t.written, expressed=copied)
+        _report_additions(robot.xml, t.written)
     rotors = [j for j in robot.joints if j.dynamics is not None and j.dynamics.armature]
     kinds = (
         ("armature", "rotor inertia (armature) of joints is dropped", rotors),
@@ -294,6 +298,32 @@ def _take_tree(robot: Robot, root: str, written: Written) -> Robot:
     _report_world(robot, written)
     part = select_links(robot, [link for link in robot.links if link.name in names])
     return replace(part, base=Base(joint.provenance, True, joint.origin))
+
+
+_COPIED = ("contact",)
+"""Elements of a link that are not URDF's, and are copied."""
+
+
+def _report_additions(root: Element, written: Written) -> None:
+    """Report attributes and elements of links and joints that URDF does not have."""
+    for part in (*root.list_children("link"), *root.list_children("joint")):
+        for what, element in _list_additions(part):
+            name = part.get("name") or ""
+            text = f"{what} of {part.tag} '{name}' is dropped"
+            place, kind = element.place, part.tag
+            written.report_loss("addition", text, place, kind=kind, name=name)
+
+
+def _list_additions(element: Element) -> Iterator[tuple[str, Element]]:
+    known = VOCABULARY[element.tag]
+    for name in element.attributes:
+        if name not in known.attributes and not name.startswith("xmlns"):
+            yield f"{name} of <{element.tag}>", element
+    for child in element.children:
+        if child.tag in known.children:
+            yield from _list_additions(child)
+        elif (element.tag, child.tag) not in (("link", tag) for tag in _COPIED):
+            yield f"<{child.tag}>", child
 
 
 _LEVEL = 1e-9
