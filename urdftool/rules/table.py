@@ -328,6 +328,7 @@ RULES: dict[str, dict[str, tuple[str, ...]]] = {
             "joint-outside-ros2-control",
             "bad-initial-value",
         ),
+        "command_interfaces": ("controller-without-interface",),
         "ros2_control_form": (
             "ros2-control-missing-attribute",
             "ros2-control-missing-plugin",
@@ -439,6 +440,7 @@ APPLIES_TO: dict[str, tuple[str, ...]] = {
     "control.transmission_joints": ("transmission", "plugin"),
     "control.ros2_control": ("ros2_control",),
     "control.ros2_control_interfaces": ("ros2_control",),
+    "control.command_interfaces": ("ros2_control",),
     "control.ros2_control_form": ("ros2_control",),
     "control.ros2_control_simulated": ("ros2_control", "plugin"),
     "control.controllers": ("ros2_control", "transmission"),

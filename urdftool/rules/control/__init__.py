@@ -5,6 +5,7 @@ FILES = (
     "transmission_joints",
     "ros2_control",
     "ros2_control_interfaces",
+    "command_interfaces",
     "ros2_control_form",
     "ros2_control_simulated",
     "controllers",
