@@ -36,7 +36,8 @@ from .worlds import record_decided
 Extent = Literal["part", "body", "below", "robot"]
 """Parts whose difference a loss explains.
 
-``part`` is the link or joint of the loss, ``body`` every link that fixed joints connect to it,
+``part`` is the link or joint of the loss, ``body`` every link that fixed joints connect to it, or
+to the parent of the joint,
 ``below`` it and all below it in the tree, ``robot`` everything.
 """
 
@@ -354,7 +355,9 @@ def _list_extent(source: Robot, extent: Extent, name: str) -> Iterator[str]:
 
 
 def _list_body(source: Robot, name: str) -> set[str]:
-    """Return the links that fixed joints connect to a link; none for another name."""
+    """Return the links that fixed joints connect to a link or the parent of a joint."""
+    if name not in source.link and name in source.joint:
+        name = source.joint[name].parent
     if name not in source.link:
         return set()
     found, todo = {name}, [name]

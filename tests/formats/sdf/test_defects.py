@@ -151,6 +151,20 @@ def test_sensors_of_joints_that_force_changes(kind, child, sensor, lost, tmp_pat
     assert is_faithful(checks), [check.differing for check in checks]
 
 
+def test_a_joint_of_unknown_type_moves_the_masses_of_both_bodies(tmp_path):
+    """Its child becomes a part of the body of its parent, which several links make."""
+    parts = (link("foot", ""), joint("i", "foot", "a", "fixed"), link("a"), link("b"), link("c"))
+    ends = joint("k", "a", "c", "fixed", origin="0 1 0"), link("d"), joint("l", "b", "d")
+    source = robot(*parts, joint("j", "a", "b", "nan", origin="1 0 0"), *ends)
+    options = Options(force=True, file="m.sdf", target="gazebo-classic")
+    written = write(source, options)
+    place = tmp_path / "m.sdf"
+    place.write_bytes(written.files["m.sdf"])
+    checks = {check.name: check for check in verify(source, written, options, place)}
+    assert is_faithful(checks.values()), [c.differing for c in checks.values()]
+    assert checks["mass"].verdict == "announced"
+
+
 def test_a_world_that_no_link_declares_is_the_world():
     parts = (link("a"), joint("j", "world", "a", "fixed"))
     assert [f.code for f in refused(*parts).findings] == ["unknown-parent-link"]

@@ -46,6 +46,7 @@ EXCUSES = (
         "below",
         ends=("_x", "_y"),
     ),
+    Excuse(_TENSORS, frozenset(("lossy-joint-type",)), "body"),  # the child is fixed to it
     Excuse(("sensors",), MOTION, "below", properties=("link", "pose")),
     # the trees that a floating joint leaves move freely in the world, each with a joint of its own
     Excuse(("base", "tree"), frozenset(("lossy-floating",)), "robot"),
