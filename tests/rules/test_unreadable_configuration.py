@@ -91,6 +91,15 @@ def test_a_controller_file_that_a_plugin_names_is_a_finding(lint):
     assert lint({"config/control.yaml": CONTROLLERS, "config/other.yaml": wrong}) == []
 
 
+@pytest.mark.parametrize(
+    "key", ["ros_parameters", "ros__parameter", "ros__params", "ros__parameters", "parameters"]
+)
+def test_the_parameters_of_a_node_have_the_key_of_ros_2(lint, key):
+    text = CONTROLLERS.replace("ros__parameters", key)
+    found = lint({"config/control.yaml": text}, targets=("ros2",))
+    assert len(found) == (key not in ("ros__parameters", "parameters"))
+
+
 def test_a_file_that_cannot_be_parsed_counts_as_not_checked(lint, urdftool):
     lint({"arm.srdf": "<robot", "joint_limits.yaml": "{{ limits }\n"})
     done = urdftool("lint", ".", "--target", "moveit", "--format", "json")

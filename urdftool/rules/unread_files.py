@@ -8,8 +8,10 @@ from ..errors import ConfigError, UrdftoolError
 from ..model.elements import Robot
 from ..source.location import SourceFile
 from ..source.yaml_tree import Node, is_blank, parse_yaml
+from ..suggestions import find_nearest
 
 _UNREAD = "unread files"
+_PARAMETERS = "ros__parameters"
 
 
 class UnreadFile(NamedTuple):
@@ -54,13 +56,28 @@ def read_parameters(robot: Robot, file: SourceFile, case: str) -> Node | None:
 
     def parse() -> Node | None:
         try:
-            return None if is_blank(file) else parse_yaml(file)
+            root = None if is_blank(file) else parse_yaml(file)
+            wrong = None if root is None else _find_misspelled(root)
+            if wrong is not None and case:
+                get_unread_files(robot)[file.path] = UnreadFile(
+                    wrong.make_error(f"'{wrong.key}' is not '{_PARAMETERS}'"), case
+                )
+            return root
         except ConfigError as error:
             rejected = case if error.rule and not is_template(file) else ""
             get_unread_files(robot)[file.path] = UnreadFile(error, rejected)
             return None
 
     return robot.memo.get(("parameters", file.path), parse)
+
+
+def _find_misspelled(root: Node) -> Node | None:
+    """Find a mapping of parameters of ROS 2 with a misspelled key, which rcl rejects."""
+    for _, node in root.walk():
+        for key, inner in (node.fields or {}).items():
+            if key.startswith("ros") and inner.fields and find_nearest(key, (_PARAMETERS,), 0.8):
+                return inner
+    return None
 
 
 def is_template(file: SourceFile) -> bool:

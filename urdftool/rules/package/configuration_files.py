@@ -30,9 +30,10 @@ def unreadable_configuration(
     """A file that MoveIt or ros2_control reads with the robot cannot be parsed.
 
     Such files are the SRDF, the YAML files of a MoveIt configuration next to it, and controller
-    files that a plugin of the robot or a launch file names. Nothing in such a file is checked. A
-    file that is a template of Jinja is not reported; the summary lists it as not checked. An SRDF
-    that TinyXML2 accepts, such as one with ``--`` in a comment, is checked, and a warning.
+    files that a plugin of the robot or a launch file names; ROS 2 rejects also a misspelled
+    ``ros__parameters`` in these. Nothing in such a file is checked. A file that is a template of
+    Jinja is not reported; the summary lists it as not checked. An SRDF that TinyXML2 accepts, such
+    as one with ``--`` in a comment, is checked, and a warning.
     """
     is_ros2 = "ros2" in targets
     if "moveit" in targets:
