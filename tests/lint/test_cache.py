@@ -561,7 +561,7 @@ def test_what_is_asked_once_for_all_is_kept_once(write, tmp_path):
     for report in check_files(paths, options, 1):
         assert "mesh-not-found" in [finding.code for finding in report.findings]
     sizes = sorted(path.stat().st_size for path in entries(tmp_path / "kept"))
-    assert len(sizes) == 3 + 2  # a report each; the packages, and the imports of Python files
+    assert len(sizes) == 3 + 3  # a report each; packages, files of Python code, their imports
     assert sizes[-1] > 2 * sizes[0]
     options = Options(cache=Cache(DiskCache(tmp_path / "kept")))
     assert all(questions.find_cached_report(path, options) for path in paths)

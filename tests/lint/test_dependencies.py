@@ -93,7 +93,7 @@ OTHERS = {
         "lint/installed_code.py",
         "lint/discover.py",
         "lint/group.py",
-        "lint/moot.py",
+        "lint/effect_kinds.py",
     ),
     *("lint/changes.py", "lint/launches.py", "lint/robot_search.py"),
     *("lint/settings.py", "lint/skipped.py", "lint/stale.py", "lint/variants.py", "lint/watch.py"),

@@ -14,6 +14,7 @@ from ..source.document import Element
 from ..source.location import Place, SourceFile
 from ..source.packages import shorten_path
 from ..source.well_formed import WIDE
+from ..workspace import Workspace
 
 _MESHES = (".stl", ".dae", ".obj", ".ply", ".glb", ".gltf", ".3ds", ".step", ".stp")
 _HEAD = 1024
@@ -114,28 +115,28 @@ def convert_error(
         effects=effects,
         hint="; ".join(failure.notes),
         unchecked=unchecked,
-        group=_group_unchecked(failure) if unchecked else None,
+        group=Group("repository", "", failure.message) if unchecked else None,
         data={"case": failure.case, **failure.data} if failure.case else failure.data,
     )
 
 
-def _group_unchecked(failure: UrdftoolError) -> Group:
-    """Return the group of descriptions that are not checked for the same reason.
+def group_by_missing_folder(files: Workspace, failure: UrdftoolError) -> Group | None:
+    """Return the group of models whose files are missing with their folder; None for others.
 
-    Files that are missing with their folder are one: the folder was forgotten, or is downloaded.
+    The folder was forgotten, or is downloaded.
     """
     missing = failure.data.get("missing")
     if missing is not None and failure.at is not None and "/" in missing:
         folder = os.path.normpath(
             os.path.join(os.path.dirname(failure.at.file.path), missing, "..")
         )
-        if not os.path.isdir(folder):
+        if not files.exists(folder):
             sentence = (
                 f"folder '{shorten_path(folder)}' does not exist, but {{count}} models need files "
                 f"in it, first '{os.path.basename(missing)}'"
             )
             return Group("repository", sentence, ("folder", folder))
-    return Group("repository", "", failure.message)
+    return None
 
 
 def _get_effects(name: str, failure: UrdftoolError) -> dict[str, str]:

@@ -45,7 +45,13 @@ from .motion import (
     is_welded_in_mujoco,
     replace_mujoco,
 )
-from .not_checked import convert_error, refuse_other_files, refuse_other_roots, refuse_srdf
+from .not_checked import (
+    convert_error,
+    group_by_missing_folder,
+    refuse_other_files,
+    refuse_other_roots,
+    refuse_srdf,
+)
 from .options import Options
 from .other_readers import (
     drop_other_effects,
@@ -147,6 +153,9 @@ def _check_variant(
                 if isinstance(error, XmlError):
                     return _stop(report, find_template_error(error), "not-well-formed")
                 report = _stop(report, find_template_error(error), "unreadable-model")
+                group = group_by_missing_folder(options.workspace, error)
+                if group is not None:
+                    report.findings = [replace(f, group=group) for f in report.findings]
                 if isinstance(error, ModelError):
                     packages = _make_packages(file, options, configuration)
                     one = _make_unexpanded(file, [], packages)
