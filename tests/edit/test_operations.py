@@ -453,3 +453,39 @@ def test_a_follower_in_ros2_control_that_needs_an_offset_is_named(urdftool, tmp_
     result = urdftool("edit", "zero", source, "j1=0.25", "-o", tmp_path / "out.urdf")
     assert result.code == 0, result.err
     assert "follows 'j1' in <ros2_control> without the offset 0.5" in result.err
+
+
+WORLD_ARM = """<robot name="a">
+  <link name="world"/>
+  <joint name="weld" type="fixed"><parent link="world"/><child link="ld"/></joint>
+  <link name="ld"><inertial><mass value="1"/>
+    <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
+</robot>"""
+
+
+def test_a_prefix_keeps_the_root_world(write):
+    edited = urdftool.load(write("a.urdf", WORLD_ARM)).prefix("l_")
+    assert edited.robot.tree.root.name == "world"
+    assert {"l_ld", "world"} == set(edited.robot.link)
+    assert edited.is_proved
+
+
+@pytest.mark.parametrize("name", ["fixed", "freed"])
+def test_a_root_that_becomes_or_was_world_is_a_difference(write, name):
+    if name == "freed":
+        edited = urdftool.load(write("a.urdf", WORLD_ARM)).mirror("xz", exchange=("world", "map"))
+    else:
+        text = re.sub('<link name="world"/>|<joint.*</joint>', "", WORLD_ARM)
+        edited = urdftool.load(write("a.urdf", text)).prefix("wor")
+    found = [d for p in edited.proofs for d in p.comparison.differences]
+    assert [d.row for d in found] == ["base"]
+    assert "fixed by 'world'" in found[0].values
+
+
+def test_world_as_the_new_root_is_reported(write):
+    away = urdftool.load(write("a.urdf", WORLD_ARM)).change_root("ld")
+    assert away.is_proved
+    assert "is free" in away.notes[-1].message
+    back = read_again(away, write).change_root("world")
+    assert back.is_proved
+    assert "Gazebo fixes" in back.notes[-1].message

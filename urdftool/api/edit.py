@@ -103,6 +103,8 @@ def prefix(
 ) -> Edited:
     """Put a prefix before all names, also in the files around the description.
 
+    A root link ``world`` keeps its name, by which Gazebo fixes the robot.
+
     Args:
         robot: The robot.
         text: The prefix.
@@ -112,13 +114,13 @@ def prefix(
     Raises:
         ModelError: A name is computed, or the text cannot be in a name.
     """
-    from ..edit.prefix import add_prefix
+    from ..edit.prefix import add_prefix, list_fixing_names
 
     def make(_: str, keep: frozenset[str]) -> Edited:
         return _run(robot, lambda draft: add_prefix(draft, text, keep=keep), files, output)
 
     if output is None or not is_xacro_name(output):
-        return make("", frozenset())
+        return make("", list_fixing_names(robot))
     from ..edit.xacro_output import prefix_in_xacro
 
     return prefix_in_xacro(robot, text, make, output)

@@ -94,6 +94,7 @@ def prefix(console: Console, /, words: tuple[str, ...], **options: Any) -> int:
 
     Links, joints, materials, transmissions, hardware components and their sensors; references in
     <gazebo>, <ros2_control>, the SRDF, and YAML files of controllers, limits and initial positions.
+    A root link 'world' keeps its name, by which Gazebo fixes the robot.
 
     \b
         urdftool edit prefix arm.urdf l_ -o left/arm.urdf

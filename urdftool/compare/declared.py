@@ -18,6 +18,7 @@ from ..model.elements import Joint, Link, Origin, Robot
 from ..model.kinematics import get_limits
 from ..model.provenance import NOWHERE
 from ..model.settings import Value
+from ..model.world import WORLD
 from ..source.location import Place
 from .compare import compare_robots
 from .conventions import express_pair
@@ -70,7 +71,11 @@ def compare_declared(
         _leave_out_sums(comparison)
     gone = tuple(_list_lost(old, new) for old, new in zip(before, (a, b), strict=True))
     _drop_uncompared_blocks(comparison, before, gone)
+    anchors = list(_compare_anchors(a, b, declared))
+    if anchors:
+        comparison.skipped.pop("base", None)
     for difference in (
+        *anchors,
         *_compare_links(a, b, names, declared),
         *_compare_joints(a, b, names, declared, comparison.joints),
         *_compare_mounts(before[1], declared),
@@ -138,6 +143,17 @@ def _check_merged(a: Robot, declared: Correspondence) -> None:
 def _drop_conventions(comparison: Comparison) -> None:
     """Remove conventions: another link frame is found by its pose, which is compared, too."""
     comparison.differences[:] = [d for d in comparison.differences if not d.is_convention]
+
+
+def _compare_anchors(a: Robot, b: Robot, declared: Correspondence) -> Iterator[Difference]:
+    """Yield that only one of two URDF has the root ``world``, which Gazebo does not move."""
+    one, two = a.tree.root, b.tree.root
+    is_known = a.base is None and b.base is None and not any(declared.branch)
+    if one is None or two is None or not is_known or (one.name == WORLD) == (two.name == WORLD):
+        return
+    words = [f"fixed by '{WORLD}'" if r.name == WORLD else "free in Gazebo" for r in (one, two)]
+    names, places = (one.name, two.name), (locate(one, None), locate(two, None))
+    yield Difference("base", "link", names, "base", (words[0], words[1]), "", 1.0, places)
 
 
 def _compare_links(

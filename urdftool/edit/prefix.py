@@ -6,6 +6,7 @@ from collections.abc import Collection
 
 from ..errors import ModelError
 from ..model.elements import Robot
+from ..model.world import WORLD
 from ..source.document import Element
 from .around import check_no_computed_names, rename_in_files
 from .draft import Draft
@@ -15,7 +16,7 @@ from .references import Names, list_names_in_text, list_others, rename
 def add_prefix(draft: Draft, prefix: str, *, keep: Collection[str] = ()) -> None:
     """Put a prefix before names of links, joints, materials, transmissions and hardware.
 
-    The names of ``keep`` stay: the link ``world`` and hardware components.
+    The names of ``keep`` stay, such as those of hardware components.
 
     Raises:
         ModelError: The prefix cannot be in a name, or a name is computed.
@@ -41,6 +42,12 @@ def make_names(robot: Robot, prefix: str, *, keep: Collection[str] = ()) -> Name
         {name: prefix + name for name in map(_get_name, _list_materials(robot)) if name},
         {name: prefix + name for name in others if name and name not in keep},
     )
+
+
+def list_fixing_names(robot: Robot) -> frozenset[str]:
+    """Return the name by which a root fixes its robot to the world of Gazebo; empty for others."""
+    root = robot.tree.root
+    return frozenset((WORLD,)) if root is not None and root.name == WORLD else frozenset()
 
 
 def _get_name(element: Element) -> str:

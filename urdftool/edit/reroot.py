@@ -15,6 +15,7 @@ from ..model.elements import Joint, Link
 from ..model.kinematics import MOVABLE
 from ..model.numbers import parse_numbers
 from ..model.pose import IDENTITY, Pose, make_pose, rotation_from_rpy
+from ..model.world import WORLD
 from ..rules.moveit.semantic import find_references
 from ..source.document import Comment, Element
 from ..source.edit import Edit
@@ -70,7 +71,7 @@ def take_root(draft: Draft, name: str, *, move_frames: bool = False) -> None:
     for file in draft.around:
         if not isinstance(file, YamlDraft):
             _check_semantics(draft, file, old, name)
-    _report_base(draft, old)
+    _report_base(draft, old, name)
 
 
 def _list_path(draft: Draft, name: str) -> Iterator[Joint]:
@@ -295,10 +296,12 @@ def _is_below(draft: Draft, base: str, tip: str, above: set[str]) -> bool:
     return first == base
 
 
-def _report_base(draft: Draft, old: str) -> None:
-    if old == "world":
-        place = draft.robot.link[old].place
-        draft.report("base", "'world' is not the root any more, so that the base is free", place)
+def _report_base(draft: Draft, old: str, new: str) -> None:
+    if WORLD in (old, new):
+        effect = "not the root any more, so that the base is free"
+        if new == WORLD:
+            effect = "the root now, which Gazebo fixes to its world"
+        draft.report("base", f"'{WORLD}' is {effect}", draft.robot.link[WORLD].place)
 
 
 def set_links(draft: Draft, joint: Joint, parent: str, child: str) -> None:

@@ -23,6 +23,7 @@ from .attach import Mount, format_joint
 from .finish import TOLERANCE, Edited, prove_again
 from .inclusion import Inclusion, Wish, insert_values, list_clashes, list_inclusions, quote
 from .numbers import format_vector
+from .prefix import list_fixing_names
 from .references import list_others
 
 Make = Callable[[str, frozenset[str]], Edited]
@@ -78,7 +79,7 @@ def prefix_in_xacro(robot: Robot, prefix: str, make: Make, output: str | Path) -
         ModelError: No way to write it gives the robot of the URDF.
     """
     _check_sources((robot,), output)
-    twin = make("", frozenset())
+    twin = make("", list_fixing_names(robot))
     ways = list_inclusions(robot, Wish(prefix), _make_refer(robot, output))
 
     def remake(result: Robot) -> Edited:
