@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
-from .diagnostic import Diagnostic, make_deprecated_name
+from .diagnostic import Diagnostic, Severity, make_deprecated_name
 from .source.location import Call, Place
 
 Scope = Literal["robot", "repository"]
@@ -99,6 +99,11 @@ class Finding(Diagnostic):
     def count(self) -> int:
         """Return the number of defects: instances of macros, and members of a group."""
         return sum(m.expansions for m in self.members) if self.members else self.expansions
+
+    @property
+    def is_deferred(self) -> bool:
+        """Tell whether it is a remark that is shown and fixed once readers accept the robot."""
+        return self.moot and self.severity is Severity.INFO
 
     def __str__(self) -> str:
         """Return ``FILE:LINE:COLUMN: severity: message [rule]``, with the number of instances."""

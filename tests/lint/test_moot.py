@@ -161,3 +161,21 @@ def test_a_rejection_is_at_the_finding_that_the_reader_rejects(urdftool, write):
     path = write("r.urdf", robot(links[0], "\n", links[1], JOINT.format("j", "base", "arm", LIMIT)))
     lines = urdftool("lint", path).err.splitlines()
     assert "mujoco rejects the robot: zero-inertia (r.urdf:2)" in lines
+
+
+@pytest.mark.parametrize(("limit", "count"), [("", 0), (LIMIT, 1)])
+def test_a_remark_that_is_not_shown_is_not_fixed(
+    write, urdftool, monkeypatch, tmp_path, limit, count
+):
+    monkeypatch.chdir(tmp_path)
+    write("package.xml", "<package format='3'><name>r</name>\n  <export/>\n</package>")
+    mesh = (
+        '<visual><geometry><mesh filename="package://r/meshes/a.stl"/></geometry></visual></link>'
+    )
+    links = LINK.format("a", 0.01).replace("</link>", mesh), LINK.format("b", 0.01)
+    write("urdf/r.urdf", robot(*links, JOINT.format("j", "a", "b", limit)))
+    write("meshes/a.stl", "solid a\nendsolid a\n")
+    options = "--target", "gz", "--target", "ros2"
+    shown = urdftool("lint", "urdf/r.urdf", *options).out
+    fixed = urdftool("lint", "urdf/r.urdf", *options, "--fix", "--diff").out
+    assert ("[gazebo-path-not-exported]" in shown, "+++ package.xml" in fixed) == (count, count)

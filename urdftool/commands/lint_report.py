@@ -85,7 +85,8 @@ def report(
     check_targets(targets, inputs=_list_inputs(outcome))
     if output.baseline or output.write_baseline:
         outcome = _apply_baseline(console, outcome, settings, output)
-    single, outcome = outcome.findings, group_outcome(outcome)
+    single = [finding for finding in outcome.findings if not finding.is_deferred]
+    outcome = group_outcome(outcome)
     threshold = Severity[output.fail_on.upper()]
     to_file = output.output_file not in (None, "-")
     at_terminal = not to_file and sys.stdout.isatty()

@@ -189,7 +189,7 @@ def _choose(
             fix = finding.fix
             if fix is None or not (fix.safe or unsafe) or (fix.rewrites and not meshes):
                 continue
-            if get_key(finding) in banned:
+            if finding.is_deferred or get_key(finding) in banned:
                 continue
             spans = [(r.place.path, r.place.start, r.place.end, r.data) for r in fix.replacements]
             spans += [(r.path, 0, _ALL, r.how.encode()) for r in fix.rewrites]

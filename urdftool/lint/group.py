@@ -59,7 +59,7 @@ def group(findings: Iterable[Finding], robots: Mapping[Any, int] | None = None) 
         findings: Findings, in the order of the source.
         robots: Index of the description of each finding; without it, all belong to one.
     """
-    shown = [f for f in findings if not (f.moot and f.severity is Severity.INFO)]
+    shown = [finding for finding in findings if not finding.is_deferred]
     return sort_findings(_merge_copies(_merge_groups(_nest_consequences(shown), robots or {})))
 
 
