@@ -360,3 +360,11 @@ def test_an_inertia_that_is_wrong_by_rounding_is_called_so(write):
     text = PLANAR.replace('"b"/><joint', f'"b">{body}</link><joint').replace("planar", "fixed")
     losses = api.export_mjcf(api.load(write("p.urdf", text))).losses
     assert any("only by rounding" in loss.message for loss in losses)
+
+
+def test_a_light_wider_than_a_half_space_stays_so(write, tmp_path):
+    light = '<light name="l" cutoff="100" dir="0 0 -1"/>'
+    robot = api.load(write("m.xml", mjcf(f'<body name="a">{BOX}{light}</body>')))
+    written = api.export_mjcf(robot, tmp_path / "out", verify=True)
+    assert differing(written) == {}
+    assert 'cutoff="100"' in written.text

@@ -85,5 +85,5 @@ def _build_light(light: Light) -> etree._Element:
     if not light.casts_shadow:
         element.set("castshadow", "false")
     if light.cutoff is not None:
-        element.set("cutoff", number_text(min(math.degrees(light.cutoff), 90.0)))
+        element.set("cutoff", number_text(min(math.degrees(light.cutoff), 180.0)))
     return element
