@@ -81,6 +81,14 @@ def test_findings_stay_while_another_line_is_half_typed():
     assert not list_vanished(FILES[0], step=4)
 
 
+def test_findings_of_text_that_is_gone_go(tmp_path):
+    path = tmp_path / "a.urdf"
+    path.write_text('<robot name="r"><link name="a"/><link nam="b"/></robot>')
+    editor = Editor(path, path.read_text())
+    assert {"unknown-attribute", "missing-name"} <= {code for code, _ in editor.type(editor.text)}
+    assert {code for code, _ in editor.type("")} == {"not-well-formed"}
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.parent.name)
 def test_findings_stay_at_every_prefix(path):

@@ -38,6 +38,10 @@ class TextChange(NamedTuple):
             column += self.new_end[1] - self.end[1]
         return point[0] + self.new_end[0] - self.end[0], column
 
+    def removes(self, start: Point, end: Point) -> bool:
+        """Tell whether all text of a range is replaced."""
+        return start < end and self.start <= start and end <= self.end
+
 
 def make_change(start: Point, end: Point, text: str, encoding: str) -> TextChange:
     """Return the change that replaces a range by a text."""

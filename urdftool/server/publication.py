@@ -52,9 +52,11 @@ class Publication:
         return changed | {*result.findings, *result.errors}
 
     def move(self, path: str, change: TextChange) -> None:
-        """Move the diagnostics of a document by an edit."""
+        """Move the diagnostics of a document by an edit, and drop those whose text it removes."""
         for result in self._results.values():
             for found in (result.findings, result.errors):
+                if path in found:
+                    found[path] = [one for one in found[path] if not _is_removed(one, change)]
                 for diagnostics in found.values():
                     for one in diagnostics:
                         _move_diagnostic(
@@ -89,6 +91,11 @@ def _subtract(findings: Found, errors: Found) -> Found:
         path: [one for one in some if one not in errors.get(path, ())]
         for path, some in findings.items()
     }
+
+
+def _is_removed(diagnostic: dict[str, Any], change: TextChange) -> bool:
+    span = diagnostic["range"]
+    return change.removes(_make_point(span["start"]), _make_point(span["end"]))
 
 
 def _move_diagnostic(
