@@ -47,6 +47,7 @@ BASE = (
         "extras",
         "suggestions",
         "arguments",
+        "mujoco_library",
         "parallel",
         "cluster",
     ),
@@ -179,7 +180,7 @@ PLACES = {
     "distributed": ("cluster.py",),
     "pxr": ("formats/usd/",),
     "newton": ("formats/usd/newton_child.py",),
-    "mujoco": ("formats/mjcf/", "simulation/engines/mujoco/"),
+    "mujoco": ("mujoco_library.py",),
     "PIL": (
         *("drawing/", "formats/mjcf/texture.py", "geometry/scene.py", "geometry/image_file.py"),
         *("formats/mjcf/verify_looks.py", "formats/common/asset_filter.py", "bundle/textures.py"),

@@ -24,6 +24,7 @@ from .console import Console
 from .control_characters import escape_controls
 from .errors import UrdftoolError
 from .extras import find_missing_library, is_own_module, make_missing_error
+from .mujoco_library import WITHOUT_RENDERING
 from .terminal import install, open_streams
 
 COMMANDS = (
@@ -119,6 +120,7 @@ def run(arguments: list[str] | None = None) -> None:
     """Run the command line and exit with its exit code."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # warnings of libraries are for developers
+    os.environ.update(WITHOUT_RENDERING)  # also of libraries that import it themselves
     open_streams()
     install()
     gc.set_threshold(500_000, 50, 50)  # short process with many small, long-lived objects

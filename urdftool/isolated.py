@@ -17,6 +17,7 @@ from time import monotonic
 from typing import IO, Any, TypeVar
 
 from .errors import UrdftoolError
+from .mujoco_library import WITHOUT_RENDERING
 from .parallel import ignore_interrupts, limit_resources
 
 T = TypeVar("T")
@@ -83,7 +84,7 @@ class IsolatedProcess:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=self._errors,
-                env={**os.environ, **(environment or {})},
+                env={**os.environ, **WITHOUT_RENDERING, **(environment or {})},
             )
         except BaseException:
             self._errors.close()

@@ -16,6 +16,7 @@ from ...extras import is_installed, make_missing_error
 from ...isolated import ProcessDied
 from ...limited import Limits, call_with_limits
 from ...mechanics.reference import GRAVITY, Array
+from ...mujoco_library import import_mujoco
 from ..common.directory import write_directory
 from ..registry import format_named
 from ..written import Written
@@ -27,19 +28,6 @@ _PLAIN = (
     "<mujoco><asset><material name='plain'/></asset>"
     "<worldbody><body><joint/><geom size='1'/></body></worldbody></mujoco>"
 )
-
-
-def import_mujoco_module() -> Any:
-    """Import and return the MuJoCo library.
-
-    Raises:
-        MissingDependency: It is not installed.
-    """
-    try:
-        import mujoco  # type: ignore[import-untyped,unused-ignore]
-    except ImportError as error:
-        raise make_missing_error("mujoco", "--verify") from error
-    return mujoco
 
 
 def _check_name(path: Path) -> str:
@@ -59,7 +47,7 @@ def compile_file(path: Path) -> tuple[Any, list[str]]:
     """
     import warnings
 
-    mujoco = import_mujoco_module()
+    mujoco = import_mujoco("--verify")
     texts: list[str] = []
     mujoco.set_mju_user_warning(texts.append)  # else MuJoCo writes a log file
     try:
@@ -150,7 +138,7 @@ class Compiled:
             MissingDependency: MuJoCo is not installed.
             OutputError: The file does not compile.
         """
-        self.mujoco = import_mujoco_module()
+        self.mujoco = import_mujoco("--verify")
         self._reference: Any = None
         self.renamed = dict(renamed or {})
         self.model, self.warnings = compile_file(path)

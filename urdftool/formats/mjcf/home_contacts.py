@@ -19,9 +19,10 @@ from lxml import etree
 from ...errors import MissingDependency
 from ...listing import list_first
 from ...model.mechanism import ContactExclusion
+from ...mujoco_library import import_mujoco
 from ..written import Written
 from .body import Bodies
-from .compiled import compile_file, import_mujoco_module
+from .compiled import compile_file
 from .meshes import Assets
 from .options import Options
 from .structure import Structure
@@ -76,7 +77,7 @@ def exclude_overlapping(
     if options.exclude != "touching" and options.overlap is None:
         return
     try:
-        import_mujoco_module()
+        import_mujoco("--verify")
     except MissingDependency:
         return
     try:
@@ -142,7 +143,7 @@ def _find_overlaps(
             else:
                 shutil.copyfile(content, target)
         compiled, _ = compile_file(path)
-    mujoco = import_mujoco_module()
+    mujoco = import_mujoco("--verify")
     data = mujoco.MjData(compiled)
     for joint in range(compiled.njnt):
         if compiled.jnt_type[joint] >= int(mujoco.mjtJoint.mjJNT_SLIDE):

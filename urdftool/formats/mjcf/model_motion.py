@@ -19,7 +19,7 @@ from ...mechanics.standing import (
     Motion,
     estimate_end,
 )
-from .compiled import import_mujoco_module
+from ...mujoco_library import import_mujoco
 
 WHEEL = 0.01
 """Distance of the center of mass of a wheel from its axis, at most [size of the robot]; chosen, no
@@ -36,9 +36,9 @@ class ModelPose:
         self.up = np.array(data.xmat[bases])[:, 6:]  # the world's z axis in the body
         self.heights = np.array(data.subtree_com[bases])[:, 2]
         self.all_places, self.geoms = np.array(data.xpos), np.array(data.geom_xpos)
-        self.lows = dict(list_low_points(import_mujoco_module(), model, data))
+        self.lows = dict(list_low_points(import_mujoco("--verify"), model, data))
         self.size = _measure_size(model, self)
-        self.wheels = set(_list_wheels(import_mujoco_module(), model, data, self.size))
+        self.wheels = set(_list_wheels(import_mujoco("--verify"), model, data, self.size))
 
 
 def measure_motion(
@@ -53,7 +53,7 @@ def measure_motion(
         poses: At the start, and at the beginning, in the middle and at the end of the last window.
         held: Joints that a servo or motor holds.
     """
-    mujoco, start = import_mujoco_module(), poses[0]
+    mujoco, start = import_mujoco("--verify"), poses[0]
     return Motion(
         _measure_bases(mujoco, model, data, poses),
         _measure_joints(mujoco, model, names, poses, held),

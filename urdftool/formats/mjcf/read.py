@@ -20,6 +20,7 @@ from ...extras import is_installed, make_missing_error
 from ...limited import Limits, call_with_limits
 from ...model.elements import Robot
 from ...model.provenance import Written
+from ...mujoco_library import import_mujoco
 from ...source.access import FileAccess
 from ...source.description import Description
 from ...source.document import STDIN, Document, Element
@@ -27,7 +28,7 @@ from ...source.location import SourceFile
 from ...source.packages import Packages
 from ...workspace import Workspace
 from ..reading import LARGEST, Losses, Reading, choose_limits, open_description, report_limits
-from .read_compile import FOR_FILES, LIMITS, MOST_MEMORY, Compiled, compile_text, import_library
+from .read_compile import FOR_FILES, LIMITS, MOST_MEMORY, Compiled, compile_text
 from .read_context import Context
 from .read_extras import add_extras
 from .read_native import add_native
@@ -124,7 +125,7 @@ def _compile(expanded: Expanded, workspace: Workspace, limits: Limits) -> Compil
             compile_text,
             *arguments,
             limits=choose_limits(_add_memory(limits, folder, paths, workspace), workspace),
-            prepare=import_library,
+            prepare=import_mujoco,
         )
     if workspace.dependencies is not None:
         workspace.dependencies.include(read)

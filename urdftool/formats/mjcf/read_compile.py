@@ -17,6 +17,7 @@ from ...errors import SourceError
 from ...limited import Limits, open_no_files
 from ...model.settings import RESISTANCE, SURFACE_OF_MUJOCO
 from ...model.world_settings import OF_MUJOCO
+from ...mujoco_library import import_mujoco
 from ...workspace import Workspace
 from .read_assets import read_assets
 from .read_native_table import KINDS
@@ -82,11 +83,6 @@ class Compiled:
     error_file: str = ""
 
 
-def import_library() -> None:
-    """Import MuJoCo."""
-    import mujoco  # type: ignore[import-untyped,unused-ignore]  # noqa: F401
-
-
 def compile_text(
     text: str, models: Mapping[str, bytes], paths: dict[str, str], folder: str, workspace: Workspace
 ) -> tuple[Compiled, Dependencies]:
@@ -106,8 +102,7 @@ def _compile(
 ) -> Compiled:
     import warnings
 
-    import mujoco  # type: ignore[import-untyped,unused-ignore]
-
+    mujoco = import_mujoco()
     texts: list[str] = []
     mujoco.set_mju_user_warning(texts.append)  # else MuJoCo writes a log file
     try:

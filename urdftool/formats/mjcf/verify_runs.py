@@ -23,9 +23,9 @@ from ...mechanics.standing import (
     Motion,
     get_nudge_side,
 )
+from ...mujoco_library import import_mujoco
 from ...workspace import Workspace
 from ..common.losses import DeclaredLosses
-from .compiled import import_mujoco_module
 from .model_motion import ModelPose, compute_lowest_point, measure_motion
 
 TIMESTEPS = (0.002, 0.005)
@@ -149,7 +149,7 @@ def check_runs(
 
 def read_timestep(path: Path) -> float:
     """Return the time step that a model has [s]."""
-    return float(import_mujoco_module().MjModel.from_xml_path(str(path)).opt.timestep)
+    return float(import_mujoco("--verify").MjModel.from_xml_path(str(path)).opt.timestep)
 
 
 def run_at_home(
@@ -160,7 +160,7 @@ def run_at_home(
     Without the key, the start is zero within the limits. A free base gets a floor under the lowest
     collision geometry if the file has no plane.
     """
-    mujoco = import_mujoco_module()
+    mujoco = import_mujoco("--verify")
     warned: list[str] = []
     mujoco.set_mju_user_warning(lambda text: warned.append(" ".join(text.split())))
     model = _compile_on_floor(mujoco, path)

@@ -25,7 +25,8 @@ from .tensors import SIX, has_written_inertial, has_written_tensor
         "check_urdf": "reports success anyway",
         "mujoco": "rejects the file",
         "pybullet (no element)": "rejects the robot",
-        "pybullet, drake (a number)": "take 0 for a missing number",
+        "pybullet (the mass or a moment)": "rejects the robot",
+        "pybullet, drake (a product of inertia)": "take 0 for it",
     },
     formats=URDF_AND_SDF,
 )
@@ -85,8 +86,10 @@ def _select_effects(inertial: Inertial) -> set[str]:
     keys = {"urdfdom, pinocchio", f"gz, gazebo-classic ({has} a mass)", "check_urdf", "mujoco"}
     if mass is None or inertia is None:
         keys.add("pybullet (no element)")
-    elif has_mass:
-        keys.add("pybullet, drake (a number)")
+    elif has_mass and inertia.attributes.keys() >= {"ixx", "iyy", "izz"}:
+        keys.add("pybullet, drake (a product of inertia)")
+    else:
+        keys.add("pybullet (the mass or a moment)")
     return keys
 
 

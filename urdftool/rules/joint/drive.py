@@ -15,7 +15,7 @@ from ...model.read import number
 from ...model.settings import MAGNITUDES, RESISTANCE_OF_URDF
 from ..fix import FixContext, Proposal, remove_element, remove_sign, replace_element, safe, unsafe
 from ..gazebo.contact import is_wheel
-from ..rule import ANY_FORMAT, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule
+from ..rule import ANY_FORMAT, ERROR, INFO, SAFE, UNSAFE, WARNING, Problem, rule, select_holding
 from ..symmetry import find_twins
 from ..words import quote
 from ..xml.vocabulary_table import (
@@ -129,9 +129,9 @@ def _get_units(joint: Joint) -> tuple[str, str]:
     ERROR,
     effects={
         "gz": "treats it as unlimited",
-        "mujoco": "takes the absolute value of an effort",
-        "moveit": "takes the absolute value of a velocity",
-        "drake": "aborts for a velocity",
+        "mujoco (an effort)": "takes its absolute value",
+        "moveit (a velocity)": "takes its absolute value",
+        "drake (a velocity)": "aborts",
         "pinocchio": "rejects the robot",
     },
 )
@@ -151,6 +151,9 @@ def negative_limit(robot: Robot) -> Iterator[Problem]:
                     joint,
                     f"{name} limit of joint '{joint.name}' is {value:g}; write {-value:g}",
                     at=joint.limit.locate_attribute(name),
+                    effects=select_holding(
+                        negative_limit.effects, "a velocity" if name == "velocity" else "an effort"
+                    ),
                     data={name: value},
                 )
 
@@ -291,7 +294,7 @@ def _deduplicate(
 @rule(
     ERROR,
     effects={
-        "drake": "rejects the file",
+        "drake (a damping)": "rejects the file",
         "mujoco, pybullet": "use the negative value: the joint gains energy",
     },
     of_motion=True,
@@ -316,6 +319,9 @@ def negative_dynamics(robot: Robot) -> Iterator[Problem]:
                     f"{name} of joint '{joint.name}' is {value:g}; write {-value:g}",
                     at=dynamics.locate_attribute(name),
                     severity=_choose_severity(robot, joint),
+                    effects=select_holding(
+                        negative_dynamics.effects, *["a damping"] * (name == "damping")
+                    ),
                     data={name: value},
                 )
 

@@ -101,7 +101,9 @@ def _report_second(part: Link | Joint, first: Link | Joint) -> Problem:
     ERROR,
     effects={
         "urdfdom, gz, gazebo-classic, pinocchio": "reject the robot: joint is not unique",
-        "mujoco": "loads it",
+        "mujoco (of other links)": "loads it",
+        "mujoco (of the same link)": "rejects the file: multiple parents",
+        "drake (of the same link)": "rejects the file",
         "pybullet": "crashes",
     },
     formats=ANY_FORMAT,
@@ -114,7 +116,10 @@ def duplicate_joint_name(robot: Robot) -> Iterator[Problem]:
     for joint in robot.joints:
         first = robot.joint[joint.name]
         if first is not joint and joint.name.strip():
-            yield _report_second(joint, first)
+            problem = _report_second(joint, first)
+            case = "of the same link" if first.child == joint.child else "of other links"
+            problem.effects = select_holding(duplicate_joint_name.effects, case)
+            yield problem
 
 
 @duplicate_joint_name.full

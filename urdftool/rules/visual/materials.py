@@ -77,7 +77,9 @@ _NAMELESS = {
     "pybullet (in a visual)": "rejects the robot",
     "drake (at the top level)": "rejects the robot",
     "drake (in a visual)": "accepts it",
-    "mujoco": "accepts it",
+    "mujoco (at the top level)": "accepts it",
+    "mujoco (in a visual, with a color)": "accepts it",
+    "mujoco (in a visual, without a color)": "rejects the file: required attribute missing",
 }
 
 
@@ -105,12 +107,14 @@ def nameless_material(robot: Robot) -> Iterator[Problem]:
         if nameless:
             what = "a <material>" if len(nameless) == 1 else f"{len(nameless)} <material>s"
             have = "has" if len(nameless) == 1 else "have"
+            colored = all(one.element.find_child("color") for one in nameless)
+            color = "with a color" if colored else "without a color"
             yield Problem(
                 link,
                 f"{what} of link '{link.name}' {have} no name, so urdfdom drops the "
                 'visuals and the collisions of the link; write name="…"',
                 at=nameless[0].element,
-                effects=select_holding(_NAMELESS, "in a visual"),
+                effects=select_holding(_NAMELESS, "in a visual", color),
             )
 
 

@@ -178,7 +178,8 @@ def missing_name(description: Description) -> Iterator[Problem]:
         if element.tag in ("robot", *named) and not (element.get("name") or "").strip():
             at = element.locate_attribute("name") if "name" in element.attributes else None
             severity = WARNING if element.tag == "transmission" else ERROR
-            case = (f"a {element.tag}", "no attribute" if at is None else "empty")
+            blank = "blank" if element.get("name") else "empty"
+            case = (f"a {element.tag}", "no attribute" if at is None else blank)
             yield Problem(
                 element,
                 _describe_missing_name(element),

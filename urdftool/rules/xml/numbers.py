@@ -64,7 +64,13 @@ _OF_PYBULLET = {
 
 _WRONG_ARITY = {
     **_OF_URDFDOM,
-    "mujoco (not in a visual, too few numbers)": "rejects the file: not enough data",
+    "mujoco (not in a visual, too few numbers, something written)": (
+        "rejects the file: not enough data"
+    ),
+    "mujoco (not in a visual, nothing written, not an origin)": (
+        "rejects the file: required attribute missing"
+    ),
+    "mujoco (nothing written, an origin)": "takes 0 0 0",
     "mujoco (not in a visual, too many numbers)": "rejects the file: too much data",
     **_OF_MUJOCO,
     **_OF_PYBULLET,
@@ -96,12 +102,13 @@ def wrong_arity(robot: Robot) -> Iterator[Problem]:
                 if len(words) == count or is_unexpanded(text) or any(map(_describe_defect, words)):
                     continue
                 amount = "too few numbers" if len(words) < count else "too many numbers"
+                written = "something written" if words else "nothing written"
                 yield Problem(
                     element,
                     _describe_arity(element, name, len(words), count),
                     at=element.locate_attribute(name),
                     effects=select_read_effects(
-                        select_holding(_WRONG_ARITY, *_get_conditions(element), amount),
+                        select_holding(_WRONG_ARITY, *_get_conditions(element), amount, written),
                         element,
                         name,
                     ),
@@ -137,7 +144,8 @@ def _get_conditions(element: Element) -> tuple[str, ...]:
     if above is not None and above.tag == "material" and not above.get("name"):
         place = place[:-1]  # PyBullet takes one color for all materials without a name
     kind = _VECTOR_OF.get(element.tag)
-    return (*place, kind) if kind else place
+    origin = "an origin" if element.tag == "origin" else "not an origin"
+    return (*place, origin, kind) if kind else (*place, origin)
 
 
 def _format_count(count: int) -> str:
@@ -147,10 +155,17 @@ def _format_count(count: int) -> str:
 _NOT_A_NUMBER = {
     **_OF_URDFDOM,
     "mujoco, pybullet, drake (a blank behind it)": "read it as intended",
+    "mujoco, pybullet (hexadecimal, enough numbers)": "read it as a hexadecimal number: 0x10 is 16",
     "mujoco (not in a visual, unreadable)": "rejects the file",
+    "mujoco (not in a visual, too large)": "rejects the file: number is too large",
+    "mujoco (not in a visual, readable, too few numbers)": "rejects the file: not enough data",
+    "mujoco (not in a visual, nothing written, required)": (
+        "rejects the file: required attribute missing"
+    ),
+    "mujoco (in a collision, no size)": "rejects the file: size must be positive",
     "mujoco (in a visual, unreadable)": _OF_MUJOCO["mujoco (in a visual)"],
-    "mujoco, pybullet (hexadecimal)": "read it: 0x10 is 16",
-    "pybullet (unreadable)": "reads the leading number: 0,1 is 0 and -1rad is -1",
+    "pybullet (unreadable, no short axis)": "reads the leading number: 0,1 is 0 and -1rad is -1",
+    "pybullet (an axis, too few numbers)": "rejects the robot",
     "pybullet (nothing written)": "takes 0",
     "drake (no use to Drake)": "rejects the file",
     "drake (begins with a number)": "reads the leading number: 0,1 is 0 and -1rad is -1",
@@ -269,11 +284,15 @@ def has_readable_numbers(element: Element) -> bool:
     return True
 
 
+_HEXADECIMAL = re.compile(r"\s*[-+]?0[xX][0-9a-fA-F]+\s*", re.ASCII)
+_WORDS = re.compile(r"\s*[-+]?(?:nan|inf|infinity)\s*", re.IGNORECASE | re.ASCII)
+
+
 def _get_text_condition(text: str) -> str:
     """Get the condition of effects that applies to a number's text."""
     if not text.strip():
         return "nothing written"
-    if _HEXADECIMAL.fullmatch(text.strip()):
+    if _HEXADECIMAL.fullmatch(text):
         return "hexadecimal"
     try:
         finite = math.isfinite(float(text))
@@ -281,10 +300,28 @@ def _get_text_condition(text: str) -> str:
         return "unreadable"
     if "_" in text or not text.isascii():
         return "unreadable"
-    return "a blank behind it" if finite else "not finite"
+    if finite:
+        return "a blank behind it"
+    return "not finite" if _WORDS.fullmatch(text) else "too large"
 
 
-_HEXADECIMAL = re.compile(r"[-+]?0[xX][0-9a-fA-F]+")
+def _get_number_conditions(element: Element, name: str, word: str) -> Iterator[str]:
+    """Yield the conditions of effects of the text of a number, and of those next to it."""
+    kind = _get_text_condition(word)
+    yield kind
+    count, words = VOCABULARY[element.tag].numbers[name], (element.get(name) or "").split()
+    few = count > 1 and len(words) < count
+    yield "too few numbers" if few else "enough numbers"
+    if not (few and element.tag == "axis"):
+        yield "no short axis"
+    if kind in ("not finite", "hexadecimal"):
+        yield "readable"
+    if element.tag in ("mass", "inertia", *_SHAPES):
+        yield "required"
+    if element.tag in _SHAPES and not few and word.strip().lower() in ("nan", "-inf", "-infinity"):
+        yield "no size"
+
+
 _UNIT = re.compile(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*[^\W\d_]+[²³]?")
 
 
@@ -313,7 +350,8 @@ def _report_invalid_number(element: Element, name: str, fault: str, word: str) -
     in_drake = _get_drake_conditions(element, name, word)
     if "three dampings" in in_drake:
         fault = f"three numbers, '{word}', which only Drake reads; other readers require one"
-    conditions = (*_get_conditions(element), _get_text_condition(word), *in_drake)
+    texts = _get_number_conditions(element, name, word)
+    conditions = (*_get_conditions(element), *texts, *in_drake)
     return Problem(
         element,
         _describe_number(element, name, fault),
@@ -359,6 +397,8 @@ def _get_drake_conditions(element: Element, name: str, word: str) -> tuple[str, 
     if count > 1 and any(map(_describe_defect, words[:-1])):
         return ("no use to Drake",)
     value = float(begins[1])
+    if math.isinf(value) or word[begins.end() :][:1] in ("e", "E"):
+        return ("no use to Drake",)
     if element.tag in _SHAPES and (value < 0 or (value == 0 and element.tag != "sphere")):
         return ("no use to Drake",)
     return ("begins with a number",)

@@ -24,22 +24,26 @@ from ..rule import BOTH, ERROR, UNSAFE, WARNING, Problem, rule
 from .owner import describe_owner
 from .vocabulary_table import find_misspelled_attributes, find_misspelled_children, get_census
 
+_REPEATED_IN_MUJOCO = "mujoco (an element that it reads)"
+_UNREAD_BY_MUJOCO = ("safety_controller", "calibration")
+
 
 @rule(
     WARNING,
     raised={"mujoco": ERROR},
     effects={
         "urdfdom, gz, gazebo-classic, pybullet, pinocchio, drake": "take the first",
-        "mujoco": "rejects the file: repeated element",
+        _REPEATED_IN_MUJOCO: "rejects the file: repeated element",
     },
 )
 def repeated_element(robot: Robot) -> Iterator[Problem]:
     """An element that may only be written once is repeated.
 
     urdfdom, and therefore ROS and Gazebo, take the first and ignore the others; MuJoCo rejects the
-    file. Remove the wrong one.
+    file, except for an element that it does not read. Remove the wrong one.
     """
-    known = get_census(robot).known
+    known, keeps = get_census(robot).known, keeps_visuals(robot)
+    effects = repeated_element.effects
     for tag in ("link", "inertial", "visual", "collision", "material", "joint"):
         kind = VOCABULARY[tag]
         single = {child for child in kind.children if child not in kind.many}
@@ -49,10 +53,14 @@ def repeated_element(robot: Robot) -> Iterator[Problem]:
             seen = set()
             for child in element.children:
                 if child.tag in seen:
+                    in_visual = tag == "visual" and child.tag != "material" and not keeps
+                    ignored = in_visual or child.tag in _UNREAD_BY_MUJOCO
                     yield Problem(
                         child,
                         f"second <{child.tag}> in the <{tag}> of {describe_owner(child)}: "
                         "readers take only the first; remove one",
+                        severity=WARNING if ignored else None,
+                        effects=[k for k in effects if not (ignored and k == _REPEATED_IN_MUJOCO)],
                     )
                 elif child.tag in single:
                     seen.add(child.tag)
@@ -69,7 +77,7 @@ _NEEDED = {
 
 _OF_VISUAL = "gz, gazebo-classic, pinocchio (a visual)"
 _OF_COLLISION = "gz, gazebo-classic, pinocchio (a collision)"
-_OF_SHAPE = "pybullet (a shape)"
+_OF_SHAPE = ("pybullet (a shape)", "drake (a shape)")
 _OF_AXIS = "gz, gazebo-classic (an axis)"
 _OF_COLOR = ("gz, gazebo-classic (a color)", "drake (a color)")
 
@@ -79,7 +87,8 @@ _OF_COLOR = ("gz, gazebo-classic (a color)", "drake (a color)")
     effects={
         _OF_VISUAL: "load the link without its visuals and collisions, with an error in the log",
         _OF_COLLISION: "load the link without its collisions, with an error in the log",
-        _OF_SHAPE: "rejects the robot",
+        _OF_SHAPE[0]: "rejects the robot",
+        _OF_SHAPE[1]: "rejects the file",
         _OF_AXIS: "reject the model: the axis is 0 0 0",
         _OF_COLOR[0]: "load the robot without the color",
         _OF_COLOR[1]: "rejects the file",
@@ -119,8 +128,8 @@ def _list_effects(element: Element, keeps: bool) -> list[str]:
     while above is not None and above.tag not in ("visual", "collision"):
         above = above.parent
     if above is not None and above.tag == "visual":
-        return [_OF_VISUAL, _OF_SHAPE, *["mujoco"] * keeps]
-    return [_OF_COLLISION, _OF_SHAPE, "mujoco"]
+        return [_OF_VISUAL, *_OF_SHAPE, *["mujoco"] * keeps]
+    return [_OF_COLLISION, *_OF_SHAPE, "mujoco"]
 
 
 def list_shapes(geometry: Element) -> list[Element]:
@@ -154,7 +163,10 @@ def keep_first(problem: Problem, context: FixContext) -> Proposal | None:
         "urdfdom, gz, gazebo-classic, pybullet, pinocchio": (
             "take the first shape and drop the others"
         ),
-        "mujoco": "takes a box before a cylinder before a sphere, and drops the others",
+        "mujoco (different shapes)": (
+            "takes a box before a cylinder before a sphere, and drops the others"
+        ),
+        "mujoco (one shape twice)": "rejects the file: repeated element",
         "drake": "takes a box before a sphere before a cylinder, and drops the others",
         "newton": "takes all of them",
     },
@@ -172,7 +184,12 @@ def several_shapes_in_geometry(robot: Robot) -> Iterator[Problem]:
             first, second = shapes[:2]
             around = geometry.parent.tag if geometry.parent is not None else "visual"
             drawn = around == "visual" and not keeps_visuals(robot)
-            read = set(several_shapes_in_geometry.effects) - ({"mujoco"} if drawn else set())
+            twice = len({shape.tag for shape in shapes}) < len(shapes)
+            untrue = "different shapes" if twice else "one shape twice"
+            of_mujoco = {f"mujoco ({untrue})"}
+            if drawn:
+                of_mujoco = {key for key in several_shapes_in_geometry.effects if "mujoco" in key}
+            read = set(several_shapes_in_geometry.effects) - of_mujoco
             yield Problem(
                 second,
                 f"{around} of {describe_owner(second)} has a <{second.tag}> next to its "

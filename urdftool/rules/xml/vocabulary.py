@@ -100,6 +100,15 @@ _OF_FRANKA = frozenset(("D", "K", "mu_coulomb", "mu_viscous"))
 """Attributes of ``<dynamics>`` in franka_description, next to those of URDF."""
 
 
+_NEEDED = {
+    "robot": ("link", "joint"),
+    "joint": ("parent", "child", "limit"),
+    "inertial": ("mass", "inertia"),
+    "visual": ("geometry",),
+    "collision": ("geometry",),
+}
+"""Elements without which most readers reject the robot, or drop a part, by the one around them."""
+
 _UNITS = ("unit", "units")
 """Attributes that name other units than m, kg, s and rad; no reader reads them."""
 
@@ -159,7 +168,8 @@ def unknown_element(robot: Robot, description: Description) -> Iterator[Problem]
             is_needless = word == "origin" and _moves_nothing(element)
             severity = INFO if is_needless else ERROR
             alike = (file, parent.tag, element.tag)
-            yield Problem(element, what, severity=severity, alike=alike)
+            effects = () if word in _NEEDED.get(parent.tag, ()) else None  # see unknown-attribute
+            yield Problem(element, what, severity=severity, effects=effects, alike=alike)
     for kind, elements in other.items():
         where = f"{_describe(elements[0].parent)}{_format_count(elements)}"
         message = f"<{kind[1]}> does not belong in {where}; URDF readers ignore it"
@@ -344,7 +354,9 @@ def _report_misspelled_attributes(element: Element, known: set[str]) -> Iterator
                 severity=_get_severity(element, name, word),
                 effects=select_holding(
                     _ATTRIBUTE_EFFECTS, *["one with a default is meant"] * has_default
-                ),
+                )
+                if has_default or word in VOCABULARY[element.tag].unread
+                else (),  # most readers reject the robot, or drop the link, without it
             )
 
 

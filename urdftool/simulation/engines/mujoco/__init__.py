@@ -10,6 +10,7 @@ import platform
 import sys
 from typing import TYPE_CHECKING, ClassVar
 
+from ....mujoco_library import import_mujoco
 from ..base import Capabilities, Engine, World
 
 if TYPE_CHECKING:
@@ -65,9 +66,9 @@ class MuJoCo(Engine):
 
     def open_world(self, bodies: RigidBodyModel, settings: Settings, folder: Path) -> World:
         """Load the scene, which compiles it."""
-        from .world import MuJoCoWorld, import_mujoco
+        from .world import MuJoCoWorld
 
-        return MuJoCoWorld(import_mujoco(), bodies, settings, folder)
+        return MuJoCoWorld(import_mujoco("--engine mujoco"), bodies, settings, folder)
 
 
 ENGINE = MuJoCo()

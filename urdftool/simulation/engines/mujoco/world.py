@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from ....errors import ModelError
-from ....extras import make_missing_error
 from ....mechanics.spatial_inertia import SpatialInertia, combine
 from ....mechanics.tensor import compute_principal_moments
 from ....model.pose import rotation_from_quaternion
@@ -31,19 +30,6 @@ source.
 
 _IMPEDANCE = (0.95, 0.99, 0.001, 0.5, 2.0)
 """Parameters ``solimp`` of MuJoCo of contacts: the width is 1 mm. Chosen, no source."""
-
-
-def import_mujoco() -> Any:
-    """Import MuJoCo.
-
-    Raises:
-        MissingDependency: It is not installed.
-    """
-    try:
-        import mujoco  # type: ignore[import-untyped,unused-ignore]
-    except ImportError:
-        raise make_missing_error("mujoco", "--engine mujoco") from None
-    return mujoco
 
 
 _TOO_DEEP = "XML_ELEMENT_DEPTH_EXCEEDED"
