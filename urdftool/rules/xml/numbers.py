@@ -300,17 +300,15 @@ def _get_text_condition(text: str) -> str:
         return "unreadable"
     if "_" in text or not text.isascii():
         return "unreadable"
-    if finite:
-        return "a blank behind it"
-    return "not finite" if _WORDS.fullmatch(text) else "too large"
+    kind = "not finite" if _WORDS.fullmatch(text) else "too large"
+    return "a blank behind it" if finite else kind
 
 
 def _get_number_conditions(element: Element, name: str, word: str) -> Iterator[str]:
     """Yield the conditions of effects of the text of a number, and of those next to it."""
     kind = _get_text_condition(word)
     yield kind
-    count, words = VOCABULARY[element.tag].numbers[name], (element.get(name) or "").split()
-    few = count > 1 and len(words) < count
+    few = len((element.get(name) or "").split()) < VOCABULARY[element.tag].numbers[name]
     yield "too few numbers" if few else "enough numbers"
     if not (few and element.tag == "axis"):
         yield "no short axis"
