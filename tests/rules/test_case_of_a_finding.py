@@ -54,7 +54,7 @@ def test_a_default_is_taken_for_a_misspelt_attribute_that_has_one(write):
     path = write("r.urdf", swing('<limit lover="-1" upper="1" effort="1" velocity="1"/>'))
     assert any("default" in says for says in one(path, "unknown-attribute").effects.values())
     path = write("s.urdf", swing('<limit lower="-1" upper="1" efort="1" velocity="1"/>'))
-    assert list(one(path, "unknown-attribute").effects.values()) == ["ignore it, without a message"]
+    assert not one(path, "unknown-attribute").effects  # most readers require it
 
 
 @pytest.mark.parametrize(

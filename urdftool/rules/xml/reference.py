@@ -15,7 +15,6 @@ _PADDED = {
         "reject the robot: link not found"
     ),
     "drake (a joint of a mimic)": "rejects the robot: joint not found",
-    "pinocchio (a joint of a mimic)": "crashes",
     "gz, gazebo-classic (a block)": "drop it: its reference is not found",
 }
 
