@@ -92,7 +92,8 @@ class Link(Part):
         is_virtual: Whether a reader inserted it between two joints that the source writes between
             the same two bodies; it has no mass and no geometry.
         settings: Settings of ``settings.OF_LINKS``.
-        surface: Settings that a URDF gives its collisions; ``read_settings`` says to which.
+        surface: Settings that a URDF gives its collisions; those of blocks reach collisions
+            without a name, or whose name begins with that of the link.
         gazebo_material: Material of Gazebo that a ``<gazebo>`` block names; empty for none.
     """
 
