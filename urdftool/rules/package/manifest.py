@@ -9,14 +9,14 @@ from pathlib import Path
 
 from ...errors import PackageNotFound
 from ...model.elements import Link, Robot
-from ...source.comments import blank_cmake_comments
+from ...source.comments import blank_cmake_comments, blank_comments
 from ...source.description import Description
-from ...source.document import Element
 from ...source.location import Place
 from ...source.nearby_files import read_optional_file
 from ...workspace import Workspace
 from ..fix import FixContext, Proposal, Span, append_child, safe, substitute, unsafe
 from ..mesh.mesh_uses import MeshUse, get_mesh_uses
+from ..moveit.semantic import has_srdf
 from ..rule import BOTH, ERROR, INFO, ROS, SAFE, UNSAFE, WARNING, Problem, rule
 from ..words import quote
 from .dependencies import (
@@ -201,10 +201,11 @@ _INSTALL = re.compile(r"\binstall\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)", re.IGNOR
 def directory_not_installed(robot: Robot, description: Description) -> Iterator[Problem]:
     """CMake does not install a folder that the description uses.
 
-    The robot works from the source folder, but not after the package is built and installed. Add
-    ``install(DIRECTORY meshes DESTINATION share/${PROJECT_NAME})`` to ``CMakeLists.txt``. For ROS
-    1, where workspaces are mostly used without installation, it is a warning, or an info if the
-    package installs nothing.
+    Used are folders of meshes, of files that ``$(find PACKAGE)/…`` names, and of a description with
+    an SRDF. The robot works from the source folder, but not after the package is built and
+    installed. Add ``install(DIRECTORY meshes DESTINATION share/${PROJECT_NAME})`` to
+    ``CMakeLists.txt``. For ROS 1, where workspaces are mostly used without installation, it is a
+    warning, or an info if the package installs nothing.
     """
     own = description.packages.own
     if own is None:
@@ -223,25 +224,48 @@ def directory_not_installed(robot: Robot, description: Description) -> Iterator[
     severity = None
     if re.search(r"\bcatkin\b", text) and not re.search(r"\bament", text):
         severity = WARNING if installs else INFO
-    used: dict[str, Element] = {}
+    used: dict[str, Place] = {}
     for use in get_mesh_uses(robot, description):
         if use.exists and use.path is not None and use.uri.startswith(f"package://{own[0]}/"):
             real_path = description.workspace.resolve_links
             relative = os.path.relpath(real_path(use.path), real_path(own[1]))
             top = relative.replace(os.sep, "/").partition("/")[0]
             if top != ".." and "/" in relative:
-                used.setdefault(top, use.mesh.element)
-    for folder, element in used.items():
+                element = use.mesh.element
+                used.setdefault(top, element.locate_attribute("filename"))
+    of_meshes = set(used)
+    for folder, place in _find_named_folders(robot, description, own):
+        used.setdefault(folder, place)
+    for folder, at in used.items():
         if not any(place == folder or place.startswith(folder + "/") for place in places):
             yield Problem(
                 robot,
                 f"folder '{folder}' of package '{own[0]}' is used but not installed; "
                 f"write install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}}) "
                 "into CMakeLists.txt",
-                at=element.locate_attribute("filename"),
+                at=at,
                 severity=severity,
+                effects=None if folder in of_meshes else (),
                 data={"folder": folder},
             )
+
+
+def _find_named_folders(
+    robot: Robot, description: Description, own: tuple[str, Path]
+) -> Iterator[tuple[str, Place]]:
+    """Yield folders of the own package that ``$(find …)`` names, and that of an SRDF."""
+    named = re.compile(
+        rb"\$\(find(?:-pkg-share)?\s+" + re.escape(own[0].encode()) + rb"\s*\)/([\w.-]+)/[\w$]"
+    )
+    for file in description.files:
+        for found in named.finditer(blank_comments(file.data)):
+            folder = found[1].decode()
+            if description.workspace.is_folder(own[1] / folder):
+                yield folder, Place(file, found.start(), found.end(1))
+    if has_srdf(robot, description):
+        relative = os.path.relpath(os.path.abspath(description.path), own[1]).split(os.sep)
+        if len(relative) > 1 and relative[0] != os.pardir:
+            yield relative[0], robot.place
 
 
 _INSTALL_DIRECTORY = re.compile(
