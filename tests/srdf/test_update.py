@@ -51,6 +51,17 @@ def test_update_changes_only_its_pairs(urdftool, write, tmp_path, before, after,
         assert text == HEAD + (before if after is ... else after) + "</robot>\n"
 
 
+@pytest.mark.parametrize("option", ["--check", "--update"])
+@pytest.mark.parametrize("reason", ["User", "Adjacent"])
+def test_a_pair_that_touches_on_purpose_is_named(urdftool, write, option, reason):
+    write("arm.urdf", ARM)
+    write("arm.srdf", HEAD + AD.replace("Never", reason) + AB + BC + AC + CD + "</robot>\n")
+    result = urdftool("srdf", "arm.urdf", option, "arm.srdf", "-j", "1")
+    named = "1 pair disabled on purpose can touch, and counts as right: 'a' and 'd' (User)"
+    assert (named in result.err) == (reason == "User")
+    assert result.code == int(reason != "User" and option == "--check")
+
+
 MACRO = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
   <xacro:arg name="prefix" default="{default}"/>
   <xacro:macro name="pairs" params="p">

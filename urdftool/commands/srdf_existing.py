@@ -30,7 +30,8 @@ def add_existing_options(function: F) -> F:
     return click.option(
         "--check",
         metavar="FILE",
-        help="Check the pairs of an SRDF; exit code 1 if a disabled pair can touch.",
+        help="Check the pairs of an SRDF; exit code 1 if one can touch that is disabled as Never "
+        "or Adjacent. The reasons User, Default and Always count as right.",
     )(function)
 
 
@@ -83,7 +84,7 @@ def check(
     verdicts: Verdicts,
     values: dict[str, Any],
 ) -> int:
-    """Print what is known of the pairs of an SRDF; return 1 if a disabled pair can touch."""
+    """Print what is known of the pairs of an SRDF; return 1 if one is wrong."""
     from ..output import write_result
     from ..report import srdf_existing as report
     from ..srdf.contact_poses import list_disabled_contacts
@@ -127,6 +128,6 @@ def update(
         write_result(changes.data.decode("utf-8"), "-")
     elif changes.data != content.element.file.data or not Path(target).exists():
         write_file(target, changes.data)
-    console.print_note(f"{target}: {report.format_update(changes)}")
+    console.print_note(f"{target}: {report.format_update(changes, found)}")
     write_contacts(console, robot, list_disabled_contacts(found), values)
     return int(bool(changes.refused or changes.kept))

@@ -35,6 +35,10 @@ _COUNTED = (
 )
 
 
+_MOST_NAMED = 3
+"""Pairs that a summary names; chosen, no source."""
+
+
 def is_wrong(found: Sequence[Judgement]) -> bool:
     """Tell whether a pair is disabled as Never or Adjacent that can touch."""
     return any(
@@ -48,7 +52,28 @@ def format_summary(found: Sequence[Judgement]) -> str:
     counts = Counter(judgement.code for judgement in found)
     parts = [f"{counts[code]} {title}" for code, title in _COUNTED if counts[code]]
     disabled = len(found) - counts[MISSING]
-    return f"{format_count(disabled, 'disabled pair')}: {', '.join(parts) or 'none'}"
+    touching = format_intended(found)
+    return (
+        f"{format_count(disabled, 'disabled pair')}: {', '.join(parts) or 'none'}"
+        f"{touching and f'; {touching}'}"
+    )
+
+
+def format_intended(found: Sequence[Judgement]) -> str:
+    """Format the pairs that can touch and are disabled on purpose; empty without one."""
+    named = [
+        f"{_format_names(j)} ({j.pair.reason})"
+        for j in found
+        if j.code == INTENDED_CONTACT and j.verdict is not None and j.verdict.kind == CAN_TOUCH
+    ]
+    if not named:
+        return ""
+    more = f" and {len(named) - _MOST_NAMED} more" if len(named) > _MOST_NAMED else ""
+    verb = "counts" if len(named) == 1 else "count"
+    return (
+        f"{format_count(len(named), 'pair')} disabled on purpose can touch, and {verb} as right: "
+        f"{', '.join(named[:_MOST_NAMED])}{more}"
+    )
 
 
 def format_check(found: Sequence[Judgement]) -> str:
@@ -139,9 +164,11 @@ def _format_names(judgement: Judgement) -> str:
     return f"'{judgement.pair.link1}' and '{judgement.pair.link2}'"
 
 
-def format_update(changes: Update) -> str:
-    """Format the number of changes."""
+def format_update(changes: Update, found: Sequence[Judgement]) -> str:
+    """Format the number of changes, and the pairs that stay on purpose although they can touch."""
+    touching = format_intended(found)
     return (
         f"{format_count(len(changes.added), 'pair')} added, {len(changes.removed)} removed, "
         f"{len(changes.kept)} kept though not proved, {len(changes.refused)} not added"
+        f"{touching and f'; {touching}'}"
     )
