@@ -176,3 +176,11 @@ def test_a_name_that_is_taken_is_written_once(tag):
     model = tree(written)
     assert [child.tag for child in model if child.get("name") == "b"] == ["link"]
     assert "lossy-reference" in rules(written)
+
+
+@pytest.mark.parametrize(("model", "copied"), [("", False), ('<model name="x"/>', True)])
+def test_a_joint_to_a_link_of_a_model_that_is_not_there_is_not_copied(model, copied):
+    ends = "<parent>a</parent><child>x::y</child>"
+    block = f'<gazebo>{model}<joint name="q" type="ball">{ends}</joint></gazebo>'
+    written = export(link("a"), block, force=True)
+    assert ('name="q"' in written.files["model.sdf"].decode()) is copied

@@ -171,8 +171,12 @@ def rename_frames(node: Node, t: Translation, part: Link | Joint) -> None:
 
 
 def is_frame(t: Translation, name: str) -> bool:
-    """Tell whether a link, joint or frame exists; scoped names are accepted unchecked."""
-    if name in t.robot.link or name in t.robot.joint or name in ("", "__model__") or "::" in name:
+    """Tell whether a link, joint or frame exists; of a scoped name, whether its model may."""
+    if name in t.robot.link or name in t.robot.joint or name in ("", "__model__"):
         return True
-    elements = list_model_elements(t.robot)
+    elements = list(list_model_elements(t.robot))
+    model, scope, _ = name.partition("::")
+    if scope:
+        named = (e for e in elements if e.tag == "include" or e.get("name") == model)
+        return t.robot.format != "urdf" or any(e.tag in ("model", "include") for e in named)
     return any(e.get("name") == name for e in elements if e.tag in OWN_FRAMES)
