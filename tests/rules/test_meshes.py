@@ -2,6 +2,8 @@
 
 import struct
 
+import pytest
+
 from urdftool.api.lint import check
 
 LINK = '<link name="l{0}"><visual><geometry><mesh filename="{1}"/></geometry></visual></link>'
@@ -88,3 +90,22 @@ def test_the_size_of_a_mesh_in_millimeters_is_measured_whole(tmp_path):
     file.write_text(f'<robot name="r">{LINK.format(0, "arm.stl")}</robot>')
     (finding,) = check(file, select=["mesh-in-millimeters"])
     assert "is 544 m long" in finding.message
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "defect"),
+    [
+        ("a.glb", b"garbage", "is not a GLB file"),
+        ("a.glb", b"glTF\2\0\0\0\xff\0\0\0", "announces 255 bytes, but the file has 12"),
+        ("a.gltf", b"garbage", "is not a glTF file"),
+        ("a.ply", b"garbage", "is not a PLY file"),
+        ("b.gltf", b'\xef\xbb\xbf {"asset": {"version": "2.0"}}', ""),
+        ("b.ply", b"ply\nformat ascii 1.0\n", ""),
+    ],
+)
+def test_the_first_bytes_are_those_of_the_format(tmp_path, name, data, defect):
+    (tmp_path / name).write_bytes(data)
+    shape = f'<visual><geometry><mesh filename="{name}"/></geometry></visual>'
+    (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="a">{shape}</link></robot>')
+    found = check(tmp_path / "r.urdf", select=["corrupt-mesh"])
+    assert [defect in finding.message for finding in found] == [True] * bool(defect)

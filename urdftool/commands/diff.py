@@ -69,6 +69,7 @@ def command(
     from ..compare.differences import compare
     from ..compare.tolerance import TOLERANCE
     from ..compare.unread import list_unseen
+    from ..model.files import list_sources
     from ..output import write_result
     from ..report import compare as report
 
@@ -90,7 +91,7 @@ def command(
         text = report.format_text(
             changes, colors=console.has_colors(to_file=output not in (None, "-"))
         )
-    inputs = [file.path for robot in (a, b) if robot.source for file in robot.source.files]
+    inputs = sorted(list_sources(a) | list_sources(b))
     write_result(text, output, inputs=inputs)
     for note in report.list_notes(unread):
         console.print_note(note)

@@ -207,6 +207,7 @@ def _make_reader(description: Any, jobs: int | None, progress: Progress) -> Any:
 def _show(
     console: Console, model: Robot, found: list[LinkReview], style: str, output: str | None
 ) -> int:
+    from ..model.files import list_sources
     from ..output import write_result
     from ..report import inertia_robot as report
 
@@ -219,7 +220,7 @@ def _show(
         lines = report.format_remarks(found, form=model.format, colors=colors)
         remarks = [f"{line}\n" for line in lines]
         text += "".join(["\n", *remarks] if remarks else [])
-    write_result(text, output, inputs=[file.path for file in model.source.files])
+    write_result(text, output, inputs=sorted(list_sources(model)))
     console.print_note(report.summarize(found))
     return int(any(item.status == "wrong" for item in found))
 
@@ -233,13 +234,14 @@ def _lump(
     output: str | None,
 ) -> int:
     from ..inertia.lump import lump
+    from ..model.files import list_sources
     from ..output import write_result
     from ..report import inertia_lump as report
 
     assert model.source is not None
     lumped = lump(model, found, pose)
     text = report.as_json(lumped, model) if style == "json" else report.format_table(lumped)
-    write_result(text, output, inputs=[file.path for file in model.source.files])
+    write_result(text, output, inputs=sorted(list_sources(model)))
     for note in lumped.notes:
         console.print_note(note.message)
     return int(any(item.status == "wrong" for item in found))

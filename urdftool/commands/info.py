@@ -45,6 +45,7 @@ def command(
     from ..info.counts import count
     from ..info.size import measure
     from ..lint.validate import validate
+    from ..model.files import list_sources
     from ..output import write_result
     from ..report import info as report
     from .load_tolerant import load_tolerant
@@ -61,6 +62,5 @@ def command(
     else:
         colors = console.has_colors(to_file=output not in (None, "-"))
         text = report.format_table(model, counts, measured, colors=colors)
-    inputs = [file.path for file in model.source.files] if model.source else []
-    write_result(text, output, inputs=inputs)
+    write_result(text, output, inputs=sorted(list_sources(model)))
     return 0

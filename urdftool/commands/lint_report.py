@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -83,6 +84,8 @@ def report(
     outcome = gather(reports)
     targets = output.output_file, output.write_baseline, output.junit
     check_targets(targets, inputs=_list_inputs(outcome))
+    read = [path for path in (output.baseline, console.config) if path]
+    check_targets((output.output_file, output.junit), inputs=read)
     if output.baseline or output.write_baseline:
         outcome = _apply_baseline(console, outcome, settings, output)
     single = [finding for finding in outcome.findings if not finding.is_deferred]
@@ -141,10 +144,12 @@ def report(
 
 
 def _list_inputs(outcome: Outcome) -> list[str]:
-    """Return all source files of all descriptions."""
+    """Return all source files of all descriptions, and what else is known to have been read."""
     from ..source.document import STDIN
 
     named = [path for report in outcome.reports for path in (report.path, *report.files)]
+    rows = [row for report in outcome.reports for row in report.rows or ()]
+    named += [path for kind, path, *_ in rows if kind == "file" and os.path.isfile(path)]
     return [path for path in dict.fromkeys(named) if path not in ("-", STDIN)]
 
 

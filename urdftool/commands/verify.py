@@ -88,6 +88,7 @@ def command(
     from ..compare.correspondence import Correspondence, read_correspondence
     from ..compare.rows import limit_tolerances, select_rows
     from ..compare.several import compare_all
+    from ..model.files import list_sources
     from ..output import write_result
     from ..report import verification as report
     from .load_tolerant import load_tolerant
@@ -108,8 +109,7 @@ def command(
     ]
     agreement = compare_all(robots, rows=rows, names=declared)
     text = (report.to_json if style == "json" else report.format_text)(paths, agreement)
-    inputs = [file.path for robot in robots if robot.source for file in robot.source.files]
-    write_result(text, output, inputs=inputs)
+    write_result(text, output, inputs=sorted(set().union(*map(list_sources, robots))))
     totals = [sum(not joint.is_fixed for joint in robot.joints) for robot in robots]
     console.print_note(report.summarize(paths, agreement, totals))
     return int(not agreement.is_equal)

@@ -258,7 +258,8 @@ def implausible_mass(
         ):
             continue  # implausible-density reports it more precisely
         if mass > heaviest:
-            if mass < _WATER * measure_known_size(robot, link) ** 3:
+            size = measure_known_size(robot, link)
+            if mass < _WATER * size * size * size:  # a power would overflow
                 continue  # a vehicle
             what = f"{mass:g} kg; if the unit is grams, write {mass / 1000:g}"
         elif 0 < mass < lightest and (link.visuals or link.collisions):

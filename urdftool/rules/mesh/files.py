@@ -424,6 +424,25 @@ def _select_readers(
     ]
 
 
+_STARTS = {".glb": (b"glTF", "a GLB file"), ".ply": (b"ply", "a PLY file")}
+"""First bytes of a file and what it is, by its ending."""
+
+
+def _find_wrong_start(path: Path, head: bytes) -> str:
+    """Describe why the first bytes are not those of the format; empty if they are."""
+    suffix = path.suffix.lower()
+    if suffix == ".gltf":
+        is_object = head.removeprefix(b"\xef\xbb\xbf").lstrip()[:1] in (b"{", b"")
+        return "" if is_object else "is not a glTF file"
+    start, name = _STARTS.get(suffix, (b"", ""))
+    if not head.startswith(start):
+        return f"is not {name}"
+    expected, size = int.from_bytes(head[8:12], "little"), os.path.getsize(path)
+    if suffix == ".glb" and size < expected:
+        return f"is truncated: its header announces {expected} bytes, but the file has {size}"
+    return ""
+
+
 def describe_defect(use: MeshUse) -> str:
     """Describe why a file is not a mesh, to follow its name; empty if it is one."""
     if use.path is None:
@@ -437,6 +456,8 @@ def describe_defect(use: MeshUse) -> str:
                     return "is an empty file"
                 if head == LFS_MARK:
                     return _LFS
+                if defect := _find_wrong_start(path, head):
+                    return defect
                 return "has no faces" if _has_no_faces(file, path.suffix.lower()) else ""
         facts = read_stl_header(path)
     except OSError as error:
