@@ -208,6 +208,18 @@ def test_a_file_with_a_prefix_that_it_does_not_use_is_checked_beside_a_wrong_com
     assert {"not-well-formed", "placeholder-inertia"} <= {one.code for one in check(path)}
 
 
+@pytest.mark.parametrize(
+    ("code", "label"),
+    [("", "error"), ("import pydrake\n", "warning"), ("import yourdfpy\n", "error")],
+)
+def test_a_comment_that_all_readers_of_the_project_accept_is_no_error(tmp_path, code, label):
+    _find_use(tmp_path, code)
+    path = tmp_path / "cart.urdf"
+    path.write_text(ROBOT.replace("</robot>", "<!-- a -- b --></robot>"))
+    found = [one.severity.label for one in check(path) if one.code == "not-well-formed"]
+    assert found == [label]
+
+
 PARSER = """from xml.etree import ElementTree
 for joint in ElementTree.parse("cart.urdf").iter("joint"):
     print(joint)

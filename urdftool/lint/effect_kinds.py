@@ -12,6 +12,8 @@ from functools import cache
 from pathlib import Path
 
 from .. import rules
+from ..finding import Finding
+from ..rules.rule import select_holding
 from .motion import UNUSED_JOINT, WELDED
 
 REJECTS = "rejects"
@@ -52,6 +54,12 @@ def find_kinds(rule: str, keys: Iterable[str], effects: Mapping[str, str]) -> di
             is_unused = text in (WELDED, UNUSED_JOINT)
             found[reader] = INTENDED if is_unused else known.get(reader, CHANGES)
     return found
+
+
+def find_kinds_of_error(finding: Finding) -> dict[str, str]:
+    """Return the kind of the effect of an error of reading on each reader, by its case."""
+    keys = select_holding(_read_table().get(finding.code, {}), finding.data.get("case", ""))
+    return find_kinds(finding.code, keys, finding.effects)
 
 
 def _find_kinds(rule: str, keys: Iterable[str]) -> dict[str, str]:

@@ -31,7 +31,7 @@ from ..source.unknown_arguments import list_unknown_arguments
 from ..source.well_formed import repair
 from .completed_files import find_completing_code, find_supplying_code
 from .drake_directives import find_welded_links
-from .effect_kinds import find_kinds
+from .effect_kinds import find_kinds, find_kinds_of_error
 from .imported_readers import find_imported_readers
 from .libraries import TESSERACT
 from .meant import is_explained, is_input_of_test
@@ -327,6 +327,8 @@ def _check_description(
     findings = [
         convert_error(failure, settings.severity, unchecked=robot is None) for failure in failures
     ]
+    if used is not None and robot is not None:  # readers may accept what is not well-formed
+        findings = [lower_severity(f, used, find_kinds_of_error(f)) for f in findings]
     observer = options.observer
     if observer is not None:
         observer.receive_description(description, robot, list(findings))
