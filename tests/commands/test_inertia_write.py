@@ -454,3 +454,37 @@ def test_a_relative_name_that_cannot_follow_the_output_is_refused(urdftool, writ
     assert "m.xacro:1:" in done.err
     assert "'part.obj' is relative to r.xacro, but is computed or written in an incl" in done.err
     assert not Path("new").exists()
+
+
+SCALED = """<robot name="r">
+  <link name="big"><collision><geometry><mesh filename="big.stl"/></geometry></collision></link>
+  <link name="neg"><inertial><mass value="-1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0"
+    izz="1"/></inertial><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+  <link name="frame"/>
+  <joint name="j" type="fixed"><parent link="big"/><child link="neg"/></joint>
+  <joint name="k" type="fixed"><parent link="big"/><child link="frame"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def scaled(write, tmp_path):
+    import trimesh
+
+    trimesh.creation.box((300, 200, 100)).export(tmp_path / "big.stl")
+    return write("r.urdf", SCALED)
+
+
+@pytest.mark.parametrize("option", ["--diff", "--write", "--lump"])
+def test_what_is_known_of_the_geometry_is_said(urdftool, scaled, option):
+    done = urdftool("inertia", "robot", scaled, option, "--density", "1000")
+    assert "link 'big': The mesh is 300 m long" in done.err
+    assert "counts as written" not in done.err
+    assert ("'neg' counts with the mass properties of its geometry" in done.err) == (
+        option == "--lump"
+    )
+
+
+@pytest.mark.parametrize("words", [(), ("--all",)])
+def test_a_frame_that_is_given_a_mass_has_no_geometry(urdftool, scaled, words):
+    done = urdftool("inertia", "robot", scaled, "--diff", "--mass", "frame=1", *words)
+    assert "link 'frame' is left as it is: it has no geometry" in done.err

@@ -237,11 +237,17 @@ def _lump(
     from ..model.files import list_sources
     from ..output import write_result
     from ..report import inertia_lump as report
+    from ..report.inertia_robot import format_geometry_remarks
 
     assert model.source is not None
     lumped = lump(model, found, pose)
     text = report.as_json(lumped, model) if style == "json" else report.format_table(lumped)
     write_result(text, output, inputs=sorted(list_sources(model)))
+    implied = {note.data["link"] for note in lumped.notes if note.code == "implied-inertia"}
+    for item in found:
+        if item.link.name in implied:
+            for line in format_geometry_remarks(item):
+                console.print_message(line)
     for note in lumped.notes:
         console.print_note(note.message)
     return int(any(item.status == "wrong" for item in found))

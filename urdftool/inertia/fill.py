@@ -94,6 +94,8 @@ def fill(
     return filling
 
 
+_NO_GEOMETRY = "it has no geometry of the selected kind"
+
 _REASONS = {
     "box": "its center of mass or inertia does not fit into its geometry",
     "copied": "its inertia is the same about every axis, that of its geometry is not",
@@ -123,13 +125,18 @@ def _determine_edits(
         if item.faults:
             left(f"{_describe_fault(item)}; --all recomputes it")
         elif name in masses.by_link and item.link.mass != masses.by_link[name]:
-            left(f"it has a mass of {item.link.mass:g} kg; --all replaces it")
+            if item.link.inertial is None:
+                left(_NO_GEOMETRY)
+            else:
+                left(f"it has a mass of {item.link.mass:g} kg; --all replaces it")
         return None
     if item.body is None:
         if item.link.is_frame:
             filling.unchanged.append(name)
+            if name in masses.by_link:
+                left(_NO_GEOMETRY)
         else:
-            left("it has no geometry of the selected kind")
+            left(_NO_GEOMETRY)
         return None
     if item.body.lacks:
         left(f"its {item.body.source} is incomplete: {item.body.lacks[0].reason}")

@@ -87,7 +87,8 @@ def lump(robot: Robot, found: Sequence[LinkReview], pose: Mapping[str, float]) -
             if item.written is None or item.written.mass < 0:
                 message = f"link '{item.link.name}' is left out: its mass is unknown"
                 notes.append(_make_note("unknown-mass", message, item.link))
-        if item.status == "wrong" and item.written is not None:
+        is_counted = item.written is not None and weights.get(item.link.name) is item.written
+        if item.status == "wrong" and is_counted:
             message = f"link '{item.link.name}' counts as written, which is physically inconsistent"
             notes.append(_make_note("inconsistent-inertia", message, item.link))
     poses = link_poses(robot, positions)

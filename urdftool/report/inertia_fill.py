@@ -10,7 +10,7 @@ from ..inertia.fill import Filling, Refusal
 from ..mechanics.tensor import get_components
 from ..model.elements import Robot
 from .counted import format_count
-from .inertia_robot import place_dict
+from .inertia_robot import format_geometry_remarks, place_dict
 from .json_text import format_json
 from .tables import render_table
 
@@ -35,7 +35,9 @@ def format_text(filling: Filling) -> str:
 
 
 def format_remarks(filling: Filling) -> Iterator[str]:
-    """Yield the links that were not written, with reasons and advice for manual edits."""
+    """Yield what must be known of written numbers, and the links left, with reasons and advice."""
+    for entry in filling.written:
+        yield from format_geometry_remarks(entry.item)
     for refusal in filling.left:
         yield (
             f"{refusal.place}: link '{escape_controls(refusal.link)}' is left as it is: "

@@ -130,24 +130,28 @@ def format_remarks(
                 f"  the geometry implies, at {item.implied.mass:.6g} kg: "
                 f"{_format_short(item.implied)}"
             )
-        for note in item.notes:
-            place = escape_controls(str(item.link.place))
-            yield f"{place}: link '{name}': {escape_controls(note.message)}"
-        if item.body is not None:
-            kind = item.body.source
-            for lack in item.body.lacks:
-                place, reason = escape_controls(str(lack.shape.place)), escape_controls(lack.reason)
-                yield f"{place}: link '{name}': {kind} geometry ignored: {reason}"
-            for piece in item.body.pieces:
-                place = escape_controls(str(piece.shape.place))
-                if not piece.reliable:
-                    yield (
-                        f"{place}: link '{name}': {escape_controls(piece.what)} is not closed; "
-                        f"estimated by {piece.method}, not reliable"
-                    )
-                if piece.suspicion is not None:
-                    message = escape_controls(piece.suspicion.message)
-                    yield f"{place}: link '{name}': {message}"
+        yield from format_geometry_remarks(item)
+
+
+def format_geometry_remarks(item: LinkReview) -> Iterator[str]:
+    """Yield what must be known of numbers that are computed from the geometry of a link."""
+    name, at = escape_controls(item.link.name), escape_controls(str(item.link.place))
+    for note in item.notes:
+        yield f"{at}: link '{name}': {escape_controls(note.message)}"
+    if item.body is None:
+        return
+    for lack in item.body.lacks:
+        place, reason = escape_controls(str(lack.shape.place)), escape_controls(lack.reason)
+        yield f"{place}: link '{name}': {item.body.source} geometry ignored: {reason}"
+    for piece in item.body.pieces:
+        place = escape_controls(str(piece.shape.place))
+        if not piece.reliable:
+            yield (
+                f"{place}: link '{name}': {escape_controls(piece.what)} is not closed; "
+                f"estimated by {piece.method}, not reliable"
+            )
+        for message in piece.note_texts:
+            yield f"{place}: link '{name}': {escape_controls(message)}"
 
 
 def _format_tensor(tensor: SymmetricTensor, link: Link, form: str) -> str:
