@@ -434,7 +434,7 @@ OPENERS = {
     "lint/installed_code.py": OWN,
     "fmt/discover.py": "lists the folder that the user names",
     "lint/discover.py": "lists the folder that the user names",
-    "lint/moot.py": OWN,
+    "lint/effect_kinds.py": OWN,
     "model/sdf_schema.py": OWN,
     "output.py": OUTPUTS,
     "report/findings_html.py": OWN,

@@ -23,12 +23,11 @@ from ..rules.old_names import find_old_names, find_old_rules
 from ..rules.rule import Problem, Rule
 from ..rules.table import APPLIES_TO, FIXES
 from ..rules.unread_files import collect_unread_files
-from ..source.description import Description, is_xacro, read_description
-from ..source.document import STDIN, Document, Element, parse_once, read_file
+from ..source.description import Description, is_xacro
+from ..source.document import Document, parse_once, read_file
 from ..source.location import SourceFile
 from ..source.packages import Packages
 from ..source.unknown_arguments import list_unknown_arguments
-from ..source.well_formed import repair
 from .completed_files import find_completing_code, find_supplying_code
 from .drake_directives import find_welded_links
 from .effect_kinds import find_kinds, find_kinds_of_error
@@ -64,6 +63,7 @@ from .other_readers import (
 from .outcome import NOT_EXPANDED, Report
 from .placeholders import find_template_error, refuse_template
 from .questions import join_variants, list_questions
+from .reading import make_packages, make_unexpanded, read_in_other_format, read_mended, read_urdf
 from .settings import Settings, read_settings
 from .suppress import read_suppressions, report_unused, suppress
 from .targets import infer_targets
@@ -142,7 +142,7 @@ def _check_variant(
         refuse_other_files(file)
         if options.read_other is not None and not file.path.endswith(_URDF_ENDINGS):
             try:
-                other = _read_other(file, options, configuration)
+                other = read_in_other_format(file, options, configuration)
             except LimitError:
                 raise
             except (SourceError, ModelError) as error:
@@ -157,8 +157,8 @@ def _check_variant(
                 if group is not None:
                     report.findings = [replace(f, group=group) for f in report.findings]
                 if isinstance(error, ModelError):
-                    packages = _make_packages(file, options, configuration)
-                    one = _make_unexpanded(file, [], packages)
+                    packages = make_packages(file, options, configuration)
+                    one = make_unexpanded(file, [], packages)
                     report.findings = [name_version(f, one) for f in report.findings]
                 return report
             if other is not None:
@@ -167,13 +167,13 @@ def _check_variant(
                 _check_description(other.source, other, settings, report, [], options)
                 return report
         if not options.expand and is_xacro(file):
-            packages = _make_packages(file, options, configuration)
+            packages = make_packages(file, options, configuration)
             return _check_source(file, packages, settings, report, options)
         try:
-            description = _read(file, options, configuration)
+            description = read_urdf(file, options, configuration)
         except SourceError as error:
             failures.append(error)
-            description = _read_mended(file, options, configuration)
+            description = read_mended(file, options, configuration)
         if description is not None:
             report.unknown_arguments = list_unknown_arguments(
                 options.arguments, description.expansion
@@ -203,8 +203,8 @@ def _check_variant(
             settings = replace(settings, select=(), extend_select=())
     if robot is None or description is None:
         report.stopped = failures[0].message
-        packages = _make_packages(file, options, configuration)
-        description = _make_unexpanded(file, failures, packages)
+        packages = make_packages(file, options, configuration)
+        description = make_unexpanded(file, failures, packages)
     _check_description(description, robot, settings, report, failures, options)
     return report
 
@@ -229,69 +229,9 @@ def _check_source(
     except SourceError as error:
         failures.append(error)
         report.stopped = error.message
-    description = _make_unexpanded(file, failures, packages)
+    description = make_unexpanded(file, failures, packages)
     _check_description(description, None, settings, report, failures, options)
     return report
-
-
-def _read_other(file: SourceFile, options: Options, configuration: Configuration) -> Robot | None:
-    """Read a robot in a format other than URDF; None for URDF and xacro.
-
-    Raises:
-        UrdftoolError: The file cannot be read.
-    """
-    assert options.read_other is not None
-    return options.read_other(file, _make_packages(file, options, configuration))
-
-
-def _make_packages(file: SourceFile, options: Options, configuration: Configuration) -> Packages:
-    return Packages(
-        None if file.path == STDIN else file.path,
-        named=options.packages,
-        paths=options.package_paths,
-        configured=configuration.packages,
-        workspace=options.workspace,
-    )
-
-
-def _read(file: SourceFile, options: Options, configuration: Configuration) -> Description:
-    return read_description(
-        file.path if file.path != "<stdin>" else "-",
-        options.arguments,
-        packages=options.packages,
-        package_paths=options.package_paths,
-        configured=configuration.packages,
-        file=file,
-        gltf_up=options.gltf_up or configuration.gltf_up,
-        workspace=options.workspace,
-    )
-
-
-def _read_mended(
-    file: SourceFile, options: Options, configuration: Configuration
-) -> Description | None:
-    """Read a file that is not well-formed as tolerant readers do, to check the rest of it."""
-    is_expanded = file.path.endswith(".urdf") and b"<xacro:" not in file.data
-    repaired = repair(file) if is_expanded or not is_xacro(file) else None
-    if repaired is None:
-        return None
-    try:
-        return replace(_read(repaired, options, configuration), repaired=True)
-    except SourceError:
-        return None
-
-
-def _make_unexpanded(
-    file: SourceFile, failures: list[UrdftoolError], packages: Packages
-) -> Description:
-    """Return a description without a robot, for its source files."""
-    files = [file]
-    for failure in failures:
-        if failure.at is not None:
-            files += [failure.at.file, *(call.file for call in failure.at.calls)]
-    unique = list({f.path: f for f in files}.values())
-    document = Document(file, Element("", {}, None, file, 0), [])
-    return Description(file.path, document, unique, packages)
 
 
 def _check_description(
