@@ -38,7 +38,7 @@ class TextChange(NamedTuple):
             column += self.new_end[1] - self.end[1]
         return point[0] + self.new_end[0] - self.end[0], column
 
-    def removes(self, start: Point, end: Point) -> bool:
+    def is_around(self, start: Point, end: Point) -> bool:
         """Tell whether all text of a range is replaced."""
         return start < end and self.start <= start and end <= self.end
 

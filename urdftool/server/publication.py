@@ -95,7 +95,7 @@ def _subtract(findings: Found, errors: Found) -> Found:
 
 def _is_removed(diagnostic: dict[str, Any], change: TextChange) -> bool:
     span = diagnostic["range"]
-    return change.removes(_make_point(span["start"]), _make_point(span["end"]))
+    return change.is_around(_make_point(span["start"]), _make_point(span["end"]))
 
 
 def _move_diagnostic(

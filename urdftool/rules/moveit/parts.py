@@ -203,7 +203,7 @@ def group_state_not_taken(robot: Robot, description: Description) -> Iterator[Pr
                         effects=("moveit (a joint outside)",),
                     )
                 elif part.value is None and joint.has_axis and text is not None:
-                    starts = _starts_with_number(text)
+                    starts = _has_number_first(text)
                     yield Problem(
                         part.element,
                         f"joint '{part.name}' is '{text}' in pose '{state.name}', which is not one "
@@ -213,7 +213,7 @@ def group_state_not_taken(robot: Robot, description: Description) -> Iterator[Pr
                     )
 
 
-def _starts_with_number(text: str) -> bool:
+def _has_number_first(text: str) -> bool:
     """Tell whether C++ reads a number at the start of a text, so that the rest is a second one."""
     words = text.split()
     return bool(words) and words[0].lstrip("+-")[:1].isdigit()
