@@ -240,6 +240,25 @@ def test_the_tilt_of_a_fixed_base_is_in_its_gravity(write, tmp_path):
         assert api.verify(path, out / "p.urdf").is_equal
 
 
+def test_the_tilt_of_a_fixed_base_is_compared_without_joints(write, tmp_path):
+    """A plate without joints has no forces that show how it is mounted."""
+    rigid = (
+        '<mujoco><worldbody><body name="b" pos="0 0 1" euler="{}">{}</body></worldbody></mujoco>'
+    )
+    box = '<geom type="box" size=".05 .05 .2" mass="1"/>'
+    angles = {"tilted": "90 0 0", "level": "0 0 0", "turned": "0 0 30"}
+    paths = {name: write(f"{name}.xml", rigid.format(a, box)) for name, a in angles.items()}
+    (change,) = api.verify(paths["tilted"], paths["level"]).list_disagreements()
+    assert (change.row, change.what) == ("base", "direction of gravity")
+    assert list(change.values) == [(0.0, -1.0, 0.0), (0.0, 0.0, -1.0)]
+    assert api.verify(paths["turned"], paths["level"]).is_equal
+    free = box + "<freejoint/>"
+    free = [write(f"free-{a[:2]}.xml", rigid.format(a, free)) for a in ("90 0 0", "0 0 0")]
+    assert api.verify(*free).is_equal
+    written = api.export_urdf(api.load(paths["tilted"]), tmp_path / "out", verify=True)
+    assert differing(written) == {}
+
+
 def test_a_simulation_begins_with_the_tilt_of_the_base(write):
     from urdftool.api.start import choose_start
     from urdftool.simulation.settings import Settings

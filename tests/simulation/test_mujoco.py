@@ -7,6 +7,7 @@ import pytest
 
 from tests.conftest import FIXTURES
 from tests.simulation.robots import kinds
+from urdftool.api.load import load as load_any
 from urdftool.api.simulate import run_trials as simulate
 from urdftool.errors import ModelError
 from urdftool.model.load import load
@@ -52,6 +53,29 @@ def test_a_resting_ball_is_as_high_as_its_radius(write):
         _, run = _run(write, _ball(radius))
         assert run.recording.ended == "still"
         assert run.recording.poses[-1, 0, 2] == pytest.approx(radius, rel=0.01)
+
+
+def test_a_cone_carries_a_robot(write):
+    """MuJoCo's geoms have no cone; the link's other shape would not touch the plane."""
+    shapes = (
+        ("c", "0 0 0.3 0 0 0", "<cone><radius>0.2</radius><length>0.4</length></cone>"),
+        ("s", "0 0 0.3 0 0 0", "<sphere><radius>0.05</radius></sphere>"),
+    )
+    collisions = "".join(
+        f'<collision name="{name}"><pose>{pose}</pose><geometry>{shape}</geometry></collision>'
+        for name, pose, shape in shapes
+    )
+    inertia = "<ixx>0.02</ixx><iyy>0.02</iyy><izz>0.02</izz>"
+    robot = load_any(
+        write(
+            "cone.sdf",
+            '<sdf version="1.9"><model name="m"><link name="b"><inertial><pose>0 0 0.2 0 0 0</pose>'
+            f"<mass>1</mass><inertia>{inertia}</inertia></inertial>{collisions}</link></model></sdf>",
+        )
+    )
+    (run,) = simulate(robot, Settings(nudge=0.0), engine="mujoco")
+    assert kinds(judge(robot, run)) == set()
+    assert run.recording.poses[-1, 0, 2] == pytest.approx(-0.1, abs=0.005)
 
 
 def test_a_pendulum_has_its_period(write):

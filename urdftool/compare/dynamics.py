@@ -11,11 +11,12 @@ import numpy as np
 from ..mechanics.reference import GRAVITY, SLIDING, TURNING, Array, Mechanics, get_origin_matrix
 from ..model.elements import Joint
 from ..model.kinematics import get_limits
+from ..model.numbers import remove_noise
 from ..model.provenance import NOWHERE
 from ..model.world import WORLD
 from .difference import Comparison, Difference
 from .freedoms import BASE, SEVERAL, add_free_base, expand_joints, place_root
-from .pair import Pair
+from .pair import Pair, locate
 from .rows import GLOBAL_ROWS
 
 _CONFIGURATIONS = 5
@@ -53,11 +54,12 @@ def compare_dynamics(
     one, two, names = expand_joints(pair)
     roots = one.tree.roots[0].name, two.tree.roots[0].name
     two = place_root(two, roots[1], frame)
+    turns = _get_turns(pair, roots, frame)
     why = _find_obstacle(pair, Mechanics(one), Mechanics(two), names, comparison)
     if why:
         comparison.skipped |= dict.fromkeys(GLOBAL_ROWS, why)
+        _compare_tilt(pair, turns, comparison)
         return
-    turns = _get_turns(pair, roots, frame)
     _compare(Mechanics(one), Mechanics(two), names, signs, comparison, turns)
     is_fixed = False in (pair.a.is_free, pair.b.is_free) or WORLD in roots
     if not is_fixed and roots == (pair.a.root, pair.b.root):
@@ -80,6 +82,34 @@ def _get_turns(pair: Pair, roots: tuple[str, str], frame: Array) -> tuple[Array,
         is_placed = base is not None and root != WORLD
         found.append(get_origin_matrix(base.origin)[:3, :3] if is_placed and base else np.eye(3))
     return found[0], found[1] @ frame[:3, :3].T
+
+
+def _compare_tilt(pair: Pair, turns: tuple[Array, Array], comparison: Comparison) -> None:
+    """Compare the directions of gravity in two fixed bases, where forces do not show them.
+
+    ``turns`` are the rotations in the world, 3 × 3, of the frame in which both roots are placed.
+    """
+    if "base" in comparison.skipped or not _is_tilted(turns):
+        return
+    downs = [tuple(remove_noise((-turn[2]).tolist())) for turn in turns]
+    roots = pair.a.robot.link[pair.a.root], pair.b.robot.link[pair.b.root]
+    comparison.add(
+        Difference(
+            "base",
+            "link",
+            (roots[0].name, roots[1].name),
+            "direction of gravity",
+            (downs[0], downs[1]),
+            "",
+            float(np.abs(turns[0][2] - turns[1][2]).max()),
+            (locate(pair.a.robot.base, roots[0]), locate(pair.b.robot.base, roots[1])),
+            "the fixed bases are tilted differently",
+        )
+    )
+
+
+def _is_tilted(turns: tuple[Array, Array]) -> bool:
+    return float(np.abs(turns[0][2] - turns[1][2]).max()) > _LEVEL
 
 
 def _find_obstacle(
@@ -121,7 +151,7 @@ def _compare(
     sign = np.array([signs.get(name, 1.0) for name in names])
     generator = random.Random(0)
     tilt = ""
-    if turns[0] is not None and np.abs(turns[0][2] - turns[1][2]).max() > _LEVEL:
+    if turns[0] is not None and _is_tilted(turns):
         tilt = "the fixed bases are tilted differently"
     for number in range(_CONFIGURATIONS):
         values = [_draw(joint, generator) if number else 0.0 for joint in one.joints]

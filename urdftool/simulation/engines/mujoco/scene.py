@@ -5,12 +5,15 @@ from __future__ import annotations
 import shutil
 from dataclasses import replace
 from pathlib import Path
-from xml.etree.ElementTree import Element, ElementTree, SubElement
+from xml.etree.ElementTree import Element, ElementTree, SubElement, parse
 
-from ....model.elements import Inertial, Joint, Link, Robot
+from ....model.elements import Cone, Inertial, Joint, Link, Robot
+from ....model.numbers import format_numbers_text
+from ....model.pose import Pose, quaternion_from_rotation
 from ....model.settings import RESISTANCE_OF_URDF
 from ...rigid_bodies import ROOTED, RigidBodyModel
 from ...settings import Settings
+from ...shapes import Shape, make_shapes
 from ..base import ExportMjcf
 
 SCENE = "scene.xml"
@@ -44,9 +47,44 @@ def write_model(
             target.write_bytes(content)
         else:
             shutil.copyfile(content, target)
+    _add_cones(model, folder / written.main)
     path = folder / SCENE
     ElementTree(_build_scene(written.main, bodies)).write(path, "utf-8", xml_declaration=True)
     return path
+
+
+def _add_cones(robot: Robot, path: Path) -> None:
+    """Add the cones of a robot to its MJCF as convex meshes: MuJoCo's geoms have no cone."""
+    cones = {
+        link.name: replace(link, collisions=[c for c in link.collisions if _is_cone(c.geometry)])
+        for link in robot.links
+    }
+    if not any(link.collisions for link in cones.values()):
+        return
+    tree = parse(path)
+    root = tree.getroot()
+    bodies = {body.get("name"): body for body in root.iter("body")}
+    asset = SubElement(root, "asset")
+    for name, link in cones.items():
+        body = bodies.get(name, root.find("worldbody"))
+        for shape in make_shapes(robot, link, Pose(), 0):
+            assert body is not None
+            _add_mesh(asset, body, f"cone {shape.index} of {name}", shape)
+    tree.write(path, "utf-8", xml_declaration=True)
+
+
+def _is_cone(geometry: object) -> bool:
+    return isinstance(geometry, Cone) and geometry.radius > 0 and geometry.length > 0
+
+
+def _add_mesh(asset: Element, body: Element, name: str, shape: Shape) -> None:
+    """Add a convex shape without mass to a body whose frame is that of the shape's pose."""
+    corners = format_numbers_text(shape.pieces[0].ravel().tolist())
+    SubElement(asset, "mesh", name=name, vertex=corners)
+    at = format_numbers_text(shape.pose.translation)
+    turn = format_numbers_text(quaternion_from_rotation(shape.pose.rotation))
+    geom = SubElement(body, "geom", type="mesh", mesh=name, mass="0", pos=at, quat=turn)
+    geom.attrib |= dict.fromkeys(_CONTACT_BITS, "1")
 
 
 def _build_scene(main: str, bodies: RigidBodyModel) -> Element:
