@@ -33,7 +33,7 @@ def test_flat_faces_are_counted():
 def test_rounded_copies_of_a_point_are_one_point():
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     faces = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
-    assert measure_surface(corners, faces) == (4, 0, 0, True, pytest.approx(1 / 6))
+    assert measure_surface(corners, faces) == (4, 0, 0, True, pytest.approx(1 / 6), 1.0)
     off = np.concatenate([corners[face] + 1e-8 * (n - 2) for n, face in enumerate(faces)])
     assert measure_surface(off, np.arange(12).reshape(-1, 3))[:4] == (4, 0, 0, True)
     assert measure_surface(corners, faces[1:]).open_edges == 3

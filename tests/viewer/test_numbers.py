@@ -75,7 +75,7 @@ def test_a_finding_is_on_the_links_it_is_about():
 def test_counts():
     robot = load(FIXTURES / "robots" / "demo_arm" / "urdf" / "arm.urdf.xacro")
     findings = check(robot)
-    assert format_counts(findings).startswith("3 errors, ")
+    assert format_counts(findings).startswith("3 errors")
     assert format_counts([]) == ""
     assert find_highest_severity([]) is None
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 from dataclasses import replace
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from ..diagnostic import Severity
@@ -31,6 +30,8 @@ def name_version(finding: Finding, description: Description) -> Finding:
 
     It is a warning if the project asks for an older release, or imports only other readers.
     """
+    from importlib.metadata import PackageNotFoundError, version
+
     try:
         installed = version("mujoco")
     except PackageNotFoundError:
