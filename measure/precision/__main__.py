@@ -127,6 +127,11 @@ scale above; they share 24. Infos were useful in 19 %, warnings in 55 %, errors 
 the ten wrong findings are about robots for Drake or Tesseract, which were no known readers.
 Afterwards they became readers, dynamics are left out where the code computes none, infos are on
 only of rules whose infos were useful, and many conditions were added (`test_judged_strictly.py`).
+Seeds 150115 and 150116 ("infos off") were drawn of 17 packages that no earlier sample has, nine of
+which gave no finding and one 55 of the 110, and judged by an eleventh reader by the scale above;
+they share 16. Errors were useful in 11 of 31, warnings in 16 of 36. Of the noise, ten findings are
+about tensors that PyBullet does not take from the file, of robots which the project's code loads
+without the flag for that, and five about names that stand twice in text that xacro would leave out.
 """
 RULES = """\
 ## Rules with findings that were wrong
