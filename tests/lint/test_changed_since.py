@@ -89,7 +89,13 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(case, marks=[pytest.mark.library("mujoco")] * case.startswith("mjcf"))
+        for case in CASES
+    ],
+)
 def test_a_changed_file_concerns_what_names_it(tmp_path, urdftool, case):
     files, changed, expected = CASES[case]
     commit(tmp_path, files)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 from ..errors import ModelError
@@ -120,7 +121,8 @@ def _report_yaml(draft: Draft, names: set[str]) -> None:
         if isinstance(file, YamlDraft):
             for node in list_scalars(file.file):
                 if names & set((node.text or "").split("/")):
-                    message = f"'{node.text}' was cut; the file is not changed"
+                    name = os.path.basename(file.file.path)
+                    message = f"'{node.text}' was cut; {name} is not changed"
                     draft.report("yaml", message, node.place)
     draft.around = [file for file in draft.around if not isinstance(file, YamlDraft)]
 
