@@ -58,6 +58,7 @@ def _names(tmp_path, code, mark="setup.py", robot=ROBOT, **options):
         ("import pybullet\nimport isaacgym\n", True),
         ("import pybullet\nflags = pybullet.URDF_USE_INERTIA_FROM_FILE\n", True),
         ("import pybullet as p\np.loadURDF('cart.urdf', flags=2)\n", True),
+        ("import pybullet as p\nother(flags = 1,\n  a=2)\n", False),
         ("# import pybullet\n", True),
     ],
 )

@@ -80,7 +80,8 @@ _IMPORT_OF_ROS = re.compile(
 _OF_XML = re.compile(rb"\b(?:xml\.etree|minidom|lxml|BeautifulSoup|xmltodict)\b")
 _OF_JOINTS = re.compile(rb"\bjoint")
 _WORD = re.compile(rb"\w+")
-_KEEPS_INERTIA = re.compile(rb"URDF_USE_INERTIA_FROM_FILE|\bflags\s*=\s*[1-9]")
+_FLAGS = re.compile(rb"URDF_USE_INERTIA_FROM_FILE|\bflags\s*=\s*(\d{1,9})\b", re.ASCII)
+_USE_INERTIA_FROM_FILE = 2  # of PyBullet, as a number
 
 _FILES = _FOLDERS = 1000
 """Maximum number of files and of folders; of more, none is read. Chosen, no source."""
@@ -93,6 +94,12 @@ _BYTES = 4 << 20
 
 A larger notebook, whose size is that of its pictures, is skipped.
 """
+
+
+def _keeps_inertia(code: bytes) -> bool:
+    """Tell whether PyBullet gets the flag with which it takes inertias from the file."""
+    found = _FLAGS.finditer(code)
+    return any(one[1] is None or int(one[1]) & _USE_INERTIA_FROM_FILE for one in found)
 
 
 def find_imported_readers(description: Description, targets: frozenset[str]) -> Use | None:
@@ -207,7 +214,7 @@ def _read_imports(files: Workspace, folder: str) -> _Imports | None:
             if path.endswith(".ipynb"):
                 continue
             return None
-        keeps_inertia = keeps_inertia or bool(_KEEPS_INERTIA.search(text))
+        keeps_inertia = keeps_inertia or _keeps_inertia(text)
         own = {name.decode() for name in _IMPORT.findall(text)}
         words = _NAMED.findall(text) if _holds_any(text, _NAMES) else []
         words += (word for line in _IMPORT_LINE.findall(text) for word in _WORD.findall(line))
