@@ -428,16 +428,15 @@ _STARTS = {".glb": (b"glTF", "a GLB file"), ".ply": (b"ply", "a PLY file")}
 """First bytes of a file and what it is, by its ending."""
 
 
-def _find_wrong_start(path: Path, head: bytes) -> str:
+def _find_wrong_start(suffix: str, head: bytes, size: int) -> str:
     """Describe why the first bytes are not those of the format; empty if they are."""
-    suffix = path.suffix.lower()
     if suffix == ".gltf":
         is_object = head.removeprefix(b"\xef\xbb\xbf").lstrip()[:1] in (b"{", b"")
         return "" if is_object else "is not a glTF file"
     start, name = _STARTS.get(suffix, (b"", ""))
     if not head.startswith(start):
         return f"is not {name}"
-    expected, size = int.from_bytes(head[8:12], "little"), os.path.getsize(path)
+    expected = int.from_bytes(head[8:12], "little")
     if suffix == ".glb" and size < expected:
         return f"is truncated: its header announces {expected} bytes, but the file has {size}"
     return ""
@@ -456,7 +455,8 @@ def describe_defect(use: MeshUse) -> str:
                     return "is an empty file"
                 if head == LFS_MARK:
                     return _LFS
-                if defect := _find_wrong_start(path, head):
+                size = file.seek(0, os.SEEK_END)
+                if defect := _find_wrong_start(path.suffix.lower(), head, size):
                     return defect
                 return "has no faces" if _has_no_faces(file, path.suffix.lower()) else ""
         facts = read_stl_header(path)
