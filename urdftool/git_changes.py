@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from hashlib import sha1, sha256
 
+from .errors import SourceError
 from .git_command import run_git
 from .storage import read_regular_file
 
@@ -58,6 +59,7 @@ def list_changes(root: str, commit: str) -> Changes:
 
     Raises:
         OSError: Git is not installed.
+        SourceError: Git cannot list the files, as in a damaged repository.
     """
     changes = Changes()
     _add_changes(changes, root, commit)
@@ -66,7 +68,7 @@ def list_changes(root: str, commit: str) -> Changes:
 
 def _add_changes(changes: Changes, root: str, commit: str) -> None:
     tree = {name: (mode, blob) for mode, blob, name in _list_tree(root, commit)}
-    names = run_git(root, "ls-files", "--cached", "--others", "--exclude-standard", "-z").stdout
+    names = _list_names(root, "ls-files", "--cached", "--others", "--exclude-standard", "-z")
     for raw in tree.keys() | {name for name in names.split(b"\0") if name}:
         path = os.path.join(root, os.fsdecode(raw.rstrip(b"/")))
         mode, blob = tree.get(raw, (b"", ""))
@@ -93,12 +95,20 @@ def _add_repository(changes: Changes, path: str, commit: str) -> None:
 
 def _list_tree(root: str, commit: str) -> Iterator[tuple[bytes, str, bytes]]:
     """Yield mode, blob and name of each file of a commit."""
-    listing = run_git(root, "ls-tree", "-r", "-z", "--full-tree", commit).stdout
+    listing = _list_names(root, "ls-tree", "-r", "-z", "--full-tree", commit)
     for line in listing.split(b"\0"):
         facts, tab, name = line.partition(b"\t")
         if tab:
             mode, _, blob = facts.split()
             yield mode, blob.decode(), name
+
+
+def _list_names(root: str, *words: str) -> bytes:
+    done = run_git(root, *words)
+    if done.returncode:
+        lines = done.stderr.decode("utf-8", "replace").strip().splitlines()
+        raise SourceError(f"git cannot list its files: {''.join(lines[-1:])}", path=root)
+    return done.stdout
 
 
 def _is_unchanged(path: str, mode: bytes, blob: str) -> bool:

@@ -160,3 +160,11 @@ def test_no_filter_of_the_repository_runs(tmp_path, urdftool):
     (tmp_path / "crlf.urdf").write_text(ROBOT % "\r\n", newline="")
     assert select(urdftool, tmp_path) == {"crlf.urdf"}
     assert not ran.exists()
+
+
+def test_a_repository_whose_files_git_cannot_list_is_an_error(tmp_path, urdftool):
+    commit(tmp_path, {"r.urdf": ROBOT % ""})
+    (tmp_path / ".git/index").write_bytes(b"damaged")
+    result = urdftool("lint", tmp_path, "--changed-since", "HEAD")
+    assert result.code == 2
+    assert "git cannot list its files" in result.err
